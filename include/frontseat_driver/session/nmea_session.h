@@ -1,8 +1,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,6 +10,7 @@
 
 #include "frontseat_driver/nmea/framer.h"
 #include "frontseat_driver/protocol/message.h"
+#include "frontseat_driver/session/permission.h"
 #include "frontseat_driver/session/session.h"
 
 namespace frontseat_driver::session {
@@ -21,9 +22,9 @@ struct NmeaOptions {
   std::vector<std::string> log_sentences = {"NVG", "NVR", "MIS", "CTL"};
   bool use_acks = true;
   bool commands_enabled = true;
-  enum class ControlHook { Ctl, Mis, None };
   ControlHook control_hook = ControlHook::Ctl;
-  std::optional<std::chrono::milliseconds> send_spacing;  ///< empty: 60 ms sandshark, 20 ms kingfisher
+  std::optional<std::chrono::milliseconds> send_spacing;  ///< empty: 60 sandshark, 20 kingfisher
+  bool listen_only = false;  ///< a record is played: nothing is ever sent
 };
 
 /// What came in and what became of it, since the session began.
@@ -32,16 +33,17 @@ struct NmeaCounters {
   std::uint64_t bytes_sent = 0;
   std::uint64_t sentences_received = 0;  ///< complete lines that start with `$`
   std::uint64_t sentences_sent = 0;
-  std::uint64_t decoded = 0;             ///< sentences read into their struct
-  std::uint64_t bad_checksums = 0;
-  std::uint64_t bad_frames = 0;          ///< no frame, no checksum, cut off by the next `$`
-  std::uint64_t bad_fields = 0;          ///< single fields that did not parse
-  std::uint64_t unknown = 0;             ///< no layout, or of the other dialect
-  std::uint64_t oversized = 0;
+  std::uint64_t decoded = 0;        ///< sentences of this dialect read into their struct
+  std::uint64_t bad_checksums = 0;  ///< lines whose checksum is wrong
+  std::uint64_t bad_frames = 0;     ///< lines without frame or checksum, or cut off by the next `$`
+  std::uint64_t bad_fields = 0;     ///< single fields that did not parse
+  std::uint64_t unknown = 0;        ///< well-formed sentences without a layout in this dialect
+  std::uint64_t other_dialect = 0;  ///< those of them that belong to the other dialect
+  std::uint64_t oversized = 0;      ///< lines longer than nmea::Framer::kMaxLine
   std::uint64_t refused_commands = 0;
 };
 
-/// The conversation in either NMEA dialect (Sandshark SPI 0.1, section 4; Kingfisher 0.1, section 2).
+/// The conversation in either NMEA dialect (SPI 0.1, section 4; Kingfisher 0.1, section 2).
 ///
 /// After every connect to a Sandshark: BPVER, BPLOG ACK, then the other log sentences, one write
 /// each, send_spacing apart, waiting for no answer. A Kingfisher is sent nothing. With no dialect
@@ -57,10 +59,37 @@ class NmeaSession : public Session {
   void step(const Now& now, Output& out) override;
   SteadyTime nextStep() const override;
 
-  /// As given or as heard; empty while not known.
+  /// As given or as heard on this connection; empty while not known.
   std::optional<protocol::Dialect> dialect() const { return dialect_; }
 
   NmeaCounters counters() const;
+
+ private:
+  void hear(const Now& now, std::string_view line, Output& out);
+  void take(const Now& now, const nmea::Sentence& sentence, Output& out);
+  void takeMessage(const Now& now, const protocol::Message& message, Output& out);
+  void count(const nmea::Failure& failure);
+  void learnDialect(const Now& now, protocol::Dialect dialect, Output& out);
+  void continueHandshake(const Now& now, Output& out);
+  bool send(const Now& now, nmea::SentenceWriter sentence, Output& out);
+  void reportControl(const Now& now, Output& out);
+  std::chrono::milliseconds sendSpacing() const;
+
+  const NmeaOptions options_;
+  const std::vector<std::string> log_requests_;  ///< in the order they are sent
+
+  nmea::Framer framer_;
+  NmeaCounters counters_;
+  Permission permission_;
+  std::optional<ControlState> reported_control_;
+
+  std::optional<protocol::Dialect> dialect_;
+  bool connected_ = false;
+  bool confirmed_ = false;     ///< a good sentence was heard on this connection
+  bool version_sent_ = false;  ///< BPVER went out on this connection
+  std::size_t next_log_request_ = 0;
+  SteadyTime handshake_due_ = SteadyTime::max();
+  SteadyTime next_send_{};  ///< when send_spacing allows the next sentence
 };
 
 }  // namespace frontseat_driver::session
