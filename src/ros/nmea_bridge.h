@@ -1,0 +1,74 @@
+#pragma once
+
+#include <frontseat_driver/LinkStatus.h>
+#include <ros/node_handle.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "diagnostics.h"
+#include "frontseat_driver/driver/driver.h"
+#include "frontseat_driver/session/nmea_session.h"
+#include "parameters.h"
+#include "replay.h"
+#include "sentence_rates.h"
+#include "vehicle_publisher.h"
+
+namespace frontseat_driver::ros_layer {
+
+/// One NMEA vehicle on ROS: a session with the vehicle, run by a driver or by a record, and the
+/// topics it feeds. Logs what changes.
+///
+/// Everything but the construction and the destruction happens on one thread: the driver's, or the
+/// one that calls the record's subscriber.
+class NmeaBridge : private driver::Listener {
+ public:
+  /// Connects, or begins to listen to the record. `name` stands before every log line.
+  NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string name,
+             const Parameters& parameters);
+
+  /// Closes the connection in order; takes at most 100 ms.
+  ~NmeaBridge() override;
+
+ private:
+  void onConnected(const vehicle::Now& now, const std::string& endpoint) override;
+  void onDisconnected(const vehicle::Now& now, const std::string& reason) override;
+  void onConnectFailed(const vehicle::Now& now, const std::string& reason,
+                       std::chrono::milliseconds retry_in) override;
+  void onHeard(const vehicle::Now& now, std::string_view line) override;
+  void onSent(const vehicle::Now& now, std::string_view line) override;
+  void onEvent(const vehicle::Now& now, const vehicle::Event& event) override;
+  void onTick(const vehicle::Now& now) override;
+
+  void followDialect();
+  void watch(const vehicle::Now& now, const vehicle::Event& event);
+  void warnOfJumps(const vehicle::Now& now);
+  void publishLink(const vehicle::Now& now);
+  void reportHealth(const vehicle::Now& now);
+  const char* dialectName() const;
+
+  const std::string name_;
+  const std::string configured_endpoint_;
+  const std::optional<std::chrono::seconds> configured_leap_seconds_;
+  session::NmeaSession session_;
+  VehiclePublisher publisher_;
+  Diagnostics diagnostics_;
+  SentenceRates rates_;
+
+  std::optional<protocol::Dialect> followed_dialect_;
+  Health health_;
+  std::uint32_t connects_ = 0;
+  bool failure_logged_ = false;  ///< since the last connection
+  std::optional<vehicle::SteadyTime> last_heard_;
+  std::optional<vehicle::SteadyTime> last_navigation_;
+  std::uint64_t jumps_warned_ = 0;
+  vehicle::SteadyTime next_jump_warning_{};
+
+  // Last, so that they go first: they call into everything above.
+  std::unique_ptr<driver::Driver> driver_;
+  std::unique_ptr<Replay> replay_;
+};
+
+}  // namespace frontseat_driver::ros_layer

@@ -1,0 +1,27 @@
+#include "nmea_nodelet.h"
+
+#include <pluginlib/class_list_macros.hpp>
+
+#include "parameters.h"
+
+namespace frontseat_driver::ros_layer {
+
+void NmeaNodelet::onInit() {
+  XmlRpc::XmlRpcValue values;
+  getPrivateNodeHandle().getParam(getPrivateNodeHandle().getNamespace(), values);
+  try {
+    const Parameters parameters = readParameters(values);
+    for (const std::string& warning : unknownParameterWarnings(values)) {
+      ROS_WARN("%s: %s", getName().c_str(), warning.c_str());
+    }
+    bridge_ = std::make_unique<NmeaBridge>(getNodeHandle(), getPrivateNodeHandle(), getName(),
+                                           parameters);
+  } catch (const ParameterError& error) {
+    ROS_FATAL("%s: %s", getName().c_str(), error.what());
+    throw;
+  }
+}
+
+}  // namespace frontseat_driver::ros_layer
+
+PLUGINLIB_EXPORT_CLASS(frontseat_driver::ros_layer::NmeaNodelet, nodelet::Nodelet)
