@@ -1,0 +1,37 @@
+# `make demo` shows a simulated vehicle, `make test` proves the driver. Both install what they need.
+SHELL := /bin/bash
+VEHICLE ?= sandshark
+# Another folder for everything that is built: make BUILD_DIR=/tmp/build test
+BUILD_DIR ?= build
+export BUILD_DIR
+# Compilers at once.
+JOBS ?= 2
+export JOBS
+
+.DEFAULT_GOAL := help
+.PHONY: help demo test build lint clean
+
+help: ## what there is to make
+	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
+
+demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher
+	@scripts/install_dependencies build $(if $(DISPLAY),rviz)
+	@scripts/build -DCATKIN_ENABLE_TESTING=OFF
+	@scripts/demo "$(VEHICLE)"
+
+test: ## builds with warnings as errors and runs all tests; closes with "N passed, M failed"
+	@scripts/install_dependencies build test
+	@TARGETS="all tests" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_WARNINGS_AS_ERRORS=ON
+	@scripts/run_tests
+
+build: ## the package, ready to be sourced from build/devel/setup.bash
+	@scripts/install_dependencies build test
+	@scripts/build
+
+lint: ## clang-format, catkin_lint and clang-tidy over everything
+	@scripts/install_dependencies build test lint
+	@scripts/build -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+	@scripts/lint
+
+clean: ## removes everything that was built
+	rm -rf "$(BUILD_DIR)"
