@@ -27,37 +27,57 @@ class FieldReader {
  public:
   explicit FieldReader(const Sentence& sentence);
 
-  /// A decimal number, with or without sign, point, or exponent; correctly rounded, as strtod does.
-  /// `nan` and `inf` of any sign and case are no data (a standing Heron sends them).
+  /// A decimal number, with or without sign, point, or exponent; correctly rounded, as strtod does,
+  /// whatever the number of digits. `nan` and `inf` of any sign and case are no data (a standing
+  /// Heron sends them). Too large for a double is OutOfRange.
   std::optional<double> number();
 
   /// A number within [low, high]; one outside is OutOfRange and no data.
   std::optional<double> numberIn(double low, double high);
 
   /// A whole number within [low, high]; decimals are refused unless they are zeros.
-  std::optional<std::int64_t> integer(
-      std::int64_t low = std::numeric_limits<std::int64_t>::min(),
-      std::int64_t high = std::numeric_limits<std::int64_t>::max());
+  std::optional<std::int64_t> integer(std::int64_t low = std::numeric_limits<std::int64_t>::min(),
+                                      std::int64_t high = std::numeric_limits<std::int64_t>::max());
 
-  /// hhmmss with any decimals; seconds may read 60.
+  /// True for the text `yes`, false for `no`; any other is BadValue.
+  std::optional<bool> either(std::string_view yes, std::string_view no);
+
+  /// hhmmss with any decimals, cut off below the microsecond; seconds may read 60.
   std::optional<TimeOfDay> timeOfDay();
 
-  /// ddmmyy; years 80..99 are of the last century.
+  /// ddmmyy; years 80..99 are of the last century. A day that its month lacks is OutOfRange.
   std::optional<Date> date();
 
-  /// Latitude, N or S, longitude, E or W: four fields. Nothing if any of them is blank.
+  /// Latitude, N or S, longitude, E or W: four fields. Nothing if any of them is blank. Minutes up
+  /// to 60, because vehicles round them; a sign is BadValue, beyond 90 or 180 degrees OutOfRange.
   std::optional<LatLon> latLon(DegreeSplit split);
 
   /// The field as it is; empty when blank or missing. Blanks around it are taken off.
   std::string_view text();
 
   /// From here on the sentence may end without a MissingField fault.
-  void optionalFromHere();
+  void optionalFromHere() { optional_ = true; }
 
   /// Fields not read yet.
   int remaining() const;
 
   const FieldFaults& faults() const { return faults_; }
+
+ private:
+  bool begin();
+  bool finish(const char* at);
+  std::string_view take();
+  void note(Fault fault);
+  std::nullopt_t refuse(Fault fault);
+  std::nullopt_t refuseField();
+  std::optional<double> degrees(DegreeSplit split, int degree_digits, double limit);
+
+  const char* at_;
+  const char* end_;
+  bool ended_;             ///< no field left, not even an empty one
+  bool optional_ = false;  ///< a field that is not there is no fault
+  int field_ = 0;          ///< number of the field read last
+  FieldFaults faults_;
 };
 
 }  // namespace frontseat_driver::nmea

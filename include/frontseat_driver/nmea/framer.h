@@ -18,23 +18,27 @@ class Framer {
   /// Longest sentence, `$` to the last character before the line end, in bytes.
   static constexpr std::size_t kMaxLine = 1024;
 
-  /// Where every byte that came in went. At any time
+  /// Where every byte that came in went. At any time, also while a sink runs,
   /// `bytes == sentence_bytes + line_end_bytes + dropped_bytes + pending()`.
   struct Counters {
-    std::uint64_t bytes = 0;           ///< all that was fed
+    std::uint64_t bytes = 0;           ///< all that was taken from the chunks
     std::uint64_t sentences = 0;       ///< lines handed on
     std::uint64_t sentence_bytes = 0;  ///< in lines handed on, line ends not included
     std::uint64_t line_end_bytes = 0;  ///< CR and LF
     std::uint64_t dropped_bytes = 0;   ///< noise before `$`, cut-off and oversized lines
-    std::uint64_t cut_off = 0;         ///< sentences interrupted by the next `$`
+    std::uint64_t cut_off = 0;         ///< sentences interrupted by the next `$` or by reset()
     std::uint64_t noise_lines = 0;     ///< runs of bytes that no `$` began
     std::uint64_t oversized = 0;       ///< sentences longer than kMaxLine
   };
 
   /// Calls `sink(std::string_view line)` for each complete line that starts with `$`, in order.
-  /// The view holds until the sink returns.
+  /// The view holds until the sink returns. The sink may call reset(), not feed().
   template <class Sink>
-  void feed(std::string_view chunk, Sink&& sink);
+  void feed(std::string_view chunk, Sink&& sink) {
+    for (Scan scan{chunk}; scan.at != scan.end;) {
+      if (const std::string_view line = step(scan); !line.empty()) sink(line);
+    }
+  }
 
   /// Forgets a line that has begun, as after a lost connection; its bytes count as dropped.
   void reset();
@@ -42,7 +46,37 @@ class Framer {
   const Counters& counters() const { return counters_; }
 
   /// Bytes of a sentence that has begun and not ended.
-  std::size_t pending() const;
+  std::size_t pending() const { return held_; }
+
+ private:
+  enum class State { Between, Noise, Sentence, Oversized };
+
+  /// A chunk and how far it was read. Each kind of stop is sought ahead once and remembered, so
+  /// that no input makes a byte be looked at more than once per kind.
+  struct Scan {
+    explicit Scan(std::string_view chunk);
+    bool atLineEnd() const { return at != end && (*at == '\r' || *at == '\n'); }
+    std::string_view takeLineEnds();
+    std::string_view takeRun();
+
+    const char* at;
+    const char* end;
+    const char* next_feed;
+    const char* next_return;
+    const char* next_dollar;
+  };
+
+  std::string_view step(Scan& scan);
+  std::string_view endLine(std::size_t line_end_bytes);
+  std::string_view handOn(std::string_view line);
+  void begin();
+  void hold(std::string_view run);
+  void drop(std::string_view run);
+
+  State state_ = State::Between;
+  std::size_t held_ = 0;  ///< bytes of `buffer_` in use
+  std::array<char, kMaxLine> buffer_{};
+  Counters counters_;
 };
 
 }  // namespace frontseat_driver::nmea

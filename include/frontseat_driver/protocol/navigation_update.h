@@ -25,7 +25,7 @@ struct NavigationUpdate {
   std::optional<double> heading_deg;     ///< [0, 360); BF: from grid north, CP: from true north
   std::optional<double> roll_deg;        ///< positive port side up
   std::optional<double> pitch_deg;       ///< positive bow up
-  std::optional<nmea::TimeOfDay> computed_at;     ///< when the solution was valid; blank: sent_at
+  std::optional<nmea::TimeOfDay> computed_at;  ///< when the solution was valid; blank: sent_at
 
   static NavigationUpdate decode(nmea::FieldReader& in, nmea::DegreeSplit split);
   void encode(nmea::SentenceWriter& out) const;

@@ -18,11 +18,12 @@ struct Acknowledgement {
   static constexpr std::string_view kFormatter = "ACK";
 
   std::optional<nmea::TimeOfDay> sent_at;
-  std::string_view command;        ///< three letters ("RMB") or five ("BPRMB")
-  std::optional<nmea::TimeOfDay> command_time;  ///< field 1 of the command; blank for BPLOG, which has none
+  std::string_view command;  ///< three letters ("RMB") or five ("BPRMB")
+  std::optional<nmea::TimeOfDay>
+      command_time;  ///< field 1 of the command; blank for BPLOG, which has none
   std::string_view behavior_id;
   std::optional<std::int64_t> status;  ///< 0 invalid, 1 failed, 2 done, 3 pending
-  std::string_view message;        ///< for people; never interpreted
+  std::string_view message;            ///< for people; never interpreted
 
   static Acknowledgement decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;

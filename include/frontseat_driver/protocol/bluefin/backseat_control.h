@@ -9,8 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFCTL: the backseat was given or lost control. SPI 0.1, section 6.5 (whose table heads it BFVER by
-/// mistake). Sent on change only.
+/// $BFCTL: the backseat was given or lost control. SPI 0.1, section 6.5 (whose table heads it BFVER
+/// by mistake). Sent on change only.
 ///
 /// $BFCTL,hhmmss.sss,c*hh
 struct BackseatControl {

@@ -9,8 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFMBS: a behavior of the dive file begins. Public extra Bluefin sentence; named in Kingfisher 0.1,
-/// Appendix A.
+/// $BFMBS: a behavior of the dive file begins. Public extra Bluefin sentence; named in Kingfisher
+/// 0.1, Appendix A.
 ///
 /// $BFMBS,hhmmss.sss,d--d,n,i--i,t--t*hh
 struct BehaviorBegin {
@@ -19,7 +19,7 @@ struct BehaviorBegin {
 
   std::optional<nmea::TimeOfDay> sent_at;
   std::string_view dive_file;
-  std::string_view number;               ///< deprecated
+  std::string_view number;  ///< deprecated
   std::string_view payload_behavior_id;
   std::string_view behavior_type;
 

@@ -9,8 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BPRMB: another heading, depth or speed for the current behavior, for five seconds. SPI 0.1, section
-/// 7.3. An empty value leaves that aspect alone; its mode is then empty too.
+/// $BPRMB: another heading, depth or speed for the current behavior, for five seconds. SPI 0.1,
+/// section 7.3. An empty value leaves that aspect alone; its mode is then empty too.
 ///
 /// $BPRMB,hhmmss.sss,h.h,d.d,dm,v.v,vm,hm*hh
 ///        1          2   3   4  5   6  7
@@ -21,12 +21,13 @@ struct BehaviorChange {
   enum class HorizontalMode : std::uint8_t { Heading = 0, Rudder = 1 };
   enum class VerticalMode : std::uint8_t { Depth = 0, Altitude = 1, Pitch = 2, Elevator = 3 };
   enum class SpeedMode : std::uint8_t { Rpm = 0, Speed = 1 };
-  
+
   std::optional<nmea::TimeOfDay> sent_at;
   std::optional<double> horizontal;  ///< degrees: grid heading, or rudder to starboard
-  std::optional<double> vertical;    ///< metres of depth or altitude; degrees of pitch or elevator, bow up
+  std::optional<double>
+      vertical;  ///< metres of depth or altitude; degrees of pitch or elevator, bow up
   std::optional<VerticalMode> vertical_mode;
-  std::optional<double> speed;       ///< rpm or m/s
+  std::optional<double> speed;  ///< rpm or m/s
   std::optional<SpeedMode> speed_mode;
   std::optional<HorizontalMode> horizontal_mode;
 

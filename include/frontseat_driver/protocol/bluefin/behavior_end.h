@@ -9,8 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFMBE: a behavior of the dive file ended. Public extra Bluefin sentence; named in Kingfisher 0.1,
-/// Appendix A.
+/// $BFMBE: a behavior of the dive file ended. Public extra Bluefin sentence; named in Kingfisher
+/// 0.1, Appendix A.
 ///
 /// $BFMBE,hhmmss.sss,d--d,n,i--i,t--t*hh
 struct BehaviorEnd {
@@ -19,7 +19,7 @@ struct BehaviorEnd {
 
   std::optional<nmea::TimeOfDay> sent_at;
   std::string_view dive_file;
-  std::string_view number;               ///< deprecated
+  std::string_view number;  ///< deprecated
   std::string_view payload_behavior_id;
   std::string_view behavior_type;
 

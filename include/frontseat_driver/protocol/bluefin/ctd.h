@@ -9,8 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFCTD: conductivity, temperature and pressure. Public extra Bluefin sentence; named in Kingfisher
-/// 0.1, Appendix A.
+/// $BFCTD: conductivity, temperature and pressure. Public extra Bluefin sentence; named in
+/// Kingfisher 0.1, Appendix A.
 ///
 /// $BFCTD,hhmmss.sss,c.c,t.t,p.p,hhmmss.sss*hh
 struct Ctd {

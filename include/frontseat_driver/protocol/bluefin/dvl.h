@@ -10,8 +10,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFDVL: raw data of a Doppler velocity log. Public extra Bluefin sentence; named in Kingfisher 0.1,
-/// Appendix A.
+/// $BFDVL: raw data of a Doppler velocity log. Public extra Bluefin sentence; named in Kingfisher
+/// 0.1, Appendix A.
 ///
 /// $BFDVL,hhmmss.sss,x.x,y.y,z.z,r.r,r.r,r.r,r.r,t.t,hhmmss.sss*hh
 ///        1          2   3   4   5   6   7   8   9   10

@@ -9,7 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BPLOG: turns one kind of sentence, or ALL but ACK, on or off. SPI 0.1, section 7.1. It has no time.
+/// $BPLOG: turns one kind of sentence, or ALL but ACK, on or off. SPI 0.1, section 7.1. It has no
+/// time.
 ///
 /// $BPLOG,rrr,ON*hh
 struct LogRequest {

@@ -9,7 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFRVL: thruster and water speed. Public extra Bluefin sentence; named in Kingfisher 0.1, Appendix A.
+/// $BFRVL: thruster and water speed. Public extra Bluefin sentence; named in Kingfisher 0.1,
+/// Appendix A.
 ///
 /// $BFRVL,hhmmss.sss,r.r,s.s*hh
 struct RawVehicleSpeed {

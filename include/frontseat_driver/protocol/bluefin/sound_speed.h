@@ -9,7 +9,8 @@
 
 namespace frontseat_driver::protocol::bluefin {
 
-/// $BFSVS: speed of sound in water. Public extra Bluefin sentence; named in Kingfisher 0.1, Appendix A.
+/// $BFSVS: speed of sound in water. Public extra Bluefin sentence; named in Kingfisher 0.1,
+/// Appendix A.
 ///
 /// $BFSVS,hhmmss.sss,s.s*hh
 struct SoundSpeed {

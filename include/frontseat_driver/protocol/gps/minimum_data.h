@@ -9,7 +9,8 @@
 
 namespace frontseat_driver::protocol::gps {
 
-/// RMC of any talker: position, velocity, date. NMEA 0183, sentence RMC; Kingfisher 0.1, section 3.0.
+/// RMC of any talker: position, velocity, date. NMEA 0183, sentence RMC; Kingfisher 0.1,
+/// section 3.0.
 ///
 /// $GPRMC,hhmmss.ss,A,llll.ll,a,yyyyy.yy,b,s.s,c.c,ddmmyy,v.v,e,m*hh
 ///        1         2 3       4 5        6 7   8   9      10  11 12
@@ -17,7 +18,7 @@ struct MinimumData {
   static constexpr std::string_view kFormatter = "RMC";
 
   std::optional<nmea::TimeOfDay> measured_at;  ///< UTC
-  bool valid = false;                      ///< status A
+  bool valid = false;                          ///< status A
   std::optional<nmea::LatLon> position;
   std::optional<double> speed_kn;
   std::optional<double> course_deg;  ///< over ground, from true north

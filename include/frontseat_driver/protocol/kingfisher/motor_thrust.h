@@ -18,7 +18,7 @@ struct MotorThrust {
 
   std::optional<double> port_pct;       ///< -100..100
   std::optional<double> starboard_pct;  ///< -100..100
-  int decimals = 0;                   ///< how many encode() writes; the document knows none
+  int decimals = 0;                     ///< how many encode() writes; the document knows none
 
   static MotorThrust decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;

@@ -19,7 +19,7 @@ struct RawImu {
   static constexpr std::string_view kFormatter = "RIM";
 
   static constexpr std::string_view kFieldFormatter = "IMU";  ///< what field vehicles send
-  
+
   std::optional<nmea::TimeOfDay> sent_at;
   std::optional<double> rate_x_deg_s;
   std::optional<double> rate_y_deg_s;
@@ -27,7 +27,7 @@ struct RawImu {
   std::optional<double> acceleration_x;  ///< m/s^2 by the document; older boats send g
   std::optional<double> acceleration_y;
   std::optional<double> acceleration_z;
-  std::optional<nmea::TimeOfDay> measured_at;     ///< blank or missing: sent_at
+  std::optional<nmea::TimeOfDay> measured_at;  ///< blank or missing: sent_at
 
   static RawImu decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;

@@ -18,6 +18,7 @@ struct ThrustAndYawRate {
 
   std::optional<double> yaw_rate;    ///< positive clockwise; rad/s, on Heron firmware deg/s
   std::optional<double> thrust_pct;  ///< -100..100
+  int decimals = 0;  ///< of the thrust, how many encode() writes; the document knows none
 
   static ThrustAndYawRate decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
