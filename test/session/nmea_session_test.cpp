@@ -3,8 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "recorder.h"
 
@@ -19,6 +22,7 @@ using testing::SizeIs;
 
 // 2015-09-03 12:00:00 UTC.
 constexpr vehicle::UtcTime kStart = std::chrono::seconds{1441281600};
+constexpr std::chrono::nanoseconds kSteadyStart = 1h;
 
 std::string line(const std::string& body) {
   char sum[3];
@@ -35,7 +39,8 @@ NmeaOptions withDialect(Dialect dialect) {
 class NmeaSessionTest : public testing::Test {
  protected:
   Now now() const {
-    return {SteadyTime{elapsed_}, kStart + elapsed_, kStart + elapsed_};
+    const vehicle::UtcTime utc = kStart + (elapsed_ - kSteadyStart);
+    return {SteadyTime{elapsed_}, utc, utc};
   }
 
   void start(NmeaOptions options) {
@@ -71,7 +76,7 @@ class NmeaSessionTest : public testing::Test {
     elapsed_ = end;
   }
 
-  std::chrono::nanoseconds elapsed_ = 1h;
+  std::chrono::nanoseconds elapsed_ = kSteadyStart;
   std::unique_ptr<NmeaSession> session_;
   Recorder out_;
 };
