@@ -1,0 +1,39 @@
+#include "frontseat_driver/session/ack_tracker.h"
+
+#include <algorithm>
+
+namespace frontseat_driver::session {
+
+namespace {
+
+using vehicle::Acknowledgement;
+
+// Times go out with milliseconds; a frontseat may send them back with more or fewer decimals.
+bool sameTime(const std::optional<vehicle::TimeOfDay>& a,
+              const std::optional<vehicle::TimeOfDay>& b) {
+  if (!a || !b) return !a && !b;
+  return std::chrono::abs(*a - *b) < std::chrono::milliseconds{1};
+}
+
+}  // namespace
+
+void AckTracker::sent(const Sent& sentence) {
+  if (outstanding_.size() == kMost) outstanding_.pop_front();
+  outstanding_.push_back(sentence);
+}
+
+std::optional<AckTracker::Sent> AckTracker::match(const Acknowledgement& ack, SteadyTime now) {
+  while (!outstanding_.empty() && now - outstanding_.front().at > kForgotten) {
+    outstanding_.pop_front();
+  }
+  const auto found =
+      std::find_if(outstanding_.begin(), outstanding_.end(), [&](const Sent& sentence) {
+        return sentence.formatter == ack.command && sameTime(sentence.time, ack.command_time);
+      });
+  if (found == outstanding_.end()) return std::nullopt;
+  const Sent sentence = *found;
+  if (ack.status != Acknowledgement::Status::Pending) outstanding_.erase(found);
+  return sentence;
+}
+
+}  // namespace frontseat_driver::session
