@@ -22,6 +22,7 @@ constexpr double kNotMeasured = -1.0;
 constexpr double kStandardGravity_m_s2 = 9.80665;
 
 double radians(double angle_deg);
+double degrees(double angle_rad);
 
 /// Attitude of the FRD body in NED, as REP-103 wants it: the FLU body in ENU. Heading clockwise
 /// from true north, roll positive port side up, pitch positive bow up.

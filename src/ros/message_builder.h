@@ -158,13 +158,21 @@ class MessageBuilder {
                      const vehicle::Now& arrival) const;
   template <class Event>
   const Event* fresh(const std::optional<Latest<Event>>& latest, const vehicle::Now& now) const;
+  double positionVariance(const vehicle::Navigation& navigation) const;
   std::optional<double> trueHeading_deg(const vehicle::Navigation& navigation) const;
-  std::optional<Attitude> attitude(const vehicle::Navigation& navigation) const;
-  void fillPose(nav_msgs::Odometry& odometry) const;
-  void fillTwist(nav_msgs::Odometry& odometry, const geometry_msgs::Quaternion& orientation) const;
-  void fillRates(sensor_msgs::Imu& imu, std::optional<double> x_deg_s,
+
+  /// Empty without a heading, or without the convergence that a grid heading needs.
+  std::optional<Attitude> attitudeOf(const vehicle::Navigation& navigation) const;
+  Attitude attitudeOf(const std::optional<double>& roll_deg, const std::optional<double>& pitch_deg,
+                      double true_heading_deg) const;
+
+  void fillPosition(nav_msgs::Odometry& out) const;
+  void fillTwist(geometry_msgs::TwistWithCovariance& out, const vehicle::Velocity& velocity,
+                 const geometry_msgs::Quaternion& orientation) const;
+  void fillOrientation(sensor_msgs::Imu& out, const std::optional<Attitude>& attitude) const;
+  void fillRates(sensor_msgs::Imu& out, std::optional<double> x_deg_s,
                  std::optional<double> y_deg_s, std::optional<double> z_deg_s) const;
-  void fillAcceleration(sensor_msgs::Imu& imu, const vehicle::RawImu* raw) const;
+  void fillAcceleration(sensor_msgs::Imu& out, const vehicle::RawImu* raw) const;
 
   Parameters parameters_;
   std::optional<protocol::Dialect> dialect_;

@@ -93,12 +93,9 @@ class PrivateParameters {
   /// Names that somebody else reads.
   void alsoKnown(std::initializer_list<const char*> names);
 
-  /// Every name that was asked for.
-  const std::set<std::string>& known() const { return known_; }
-
-  /// One line for every parameter in `values` that was not asked for, with the nearest known name.
-  /// A parameter inside an unknown namespace reads `outer/inner`.
-  std::vector<std::string> unknownWarnings() const;
+  /// One line for every parameter in `values` whose name was not asked for, with the nearest one
+  /// that was. A parameter inside a namespace that nobody reads is named `outer/inner`.
+  std::vector<std::string> unknownIn(const XmlRpc::XmlRpcValue& values) const;
 
  private:
   /// 0.3 s as a double is a little more than 300 ms; it must not become 301.

@@ -1,0 +1,37 @@
+#include "stamper.h"
+
+#include <algorithm>
+
+#include "convert.h"
+#include "frontseat_driver/vehicle/date_resolution.h"
+
+namespace frontseat_driver::ros_layer {
+
+Stamper::Stamper(StampMode mode) : mode_(mode) {}
+
+ros::Time Stamper::stamp(std::optional<vehicle::TimeOfDay> measured_at, TimeScale scale,
+                         const vehicle::Now& arrival) const {
+  if (mode_ != StampMode::Vehicle || !measured_at) return toRosTime(arrival.stamp);
+  const std::chrono::seconds ahead =
+      scale == TimeScale::Vehicle ? leap_seconds_ : std::chrono::seconds(0);
+  return toRosTime(vehicle::resolveDate(*measured_at - ahead, arrival.utc));
+}
+
+ros::Time Stamper::ownTime(vehicle::TimeOfDay written, const vehicle::Now& arrival) const {
+  const vehicle::UtcTime utc = vehicle::resolveDate(written, arrival.utc);
+  if (mode_ == StampMode::Vehicle) return toRosTime(utc);
+  return toRosTime(utc + (arrival.stamp - arrival.utc));
+}
+
+ros::Time StampGuard::clamp(const ros::Time& stamp) {
+  last_ = last_ ? std::max(*last_, stamp) : stamp;
+  return *last_;
+}
+
+bool StampGuard::advances(const ros::Time& stamp) {
+  const bool later = !last_ || stamp > *last_;
+  if (later) last_ = stamp;
+  return later;
+}
+
+}  // namespace frontseat_driver::ros_layer
