@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace frontseat_driver::session {
+
+/// Longest sentence to a vehicle with its line end, in bytes: a field frontseat reads 256 at once.
+constexpr std::size_t kMostBytesSent = 200;
+
+/// Free text as it can stand in a sentence to a Sandshark.
+struct SentenceText {
+  std::string text;
+  bool lowered = false;  ///< it held a command's name in capitals and was put into lower case
+};
+
+/// Field frontseats find the command by the first of RMB, LOG, ABT, STS, VER anywhere in the line, so
+/// a text that holds one of them is put into lower case. Nothing for a text that would break the
+/// sentence: a comma, an asterisk, `$`, control or non-ASCII characters.
+std::optional<SentenceText> toSentenceText(std::string_view text);
+
+/// What is wrong with a text that toSentenceText() refused, naming its field.
+std::string textRefusal(const std::string& field);
+
+}  // namespace frontseat_driver::session

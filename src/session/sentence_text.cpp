@@ -1,0 +1,37 @@
+#include "frontseat_driver/session/sentence_text.h"
+
+#include <algorithm>
+
+#include "frontseat_driver/nmea/sentence_writer.h"
+
+namespace frontseat_driver::session {
+
+namespace {
+
+constexpr std::string_view kCommands[] = {"RMB", "LOG", "ABT", "STS", "VER"};
+
+char lower(char letter) {
+  return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+}  // namespace
+
+std::optional<SentenceText> toSentenceText(std::string_view text) {
+  if (!nmea::isFieldText(text)) return std::nullopt;
+  SentenceText result{std::string{text}, false};
+  for (const std::string_view command : kCommands) {
+    if (text.find(command) != std::string_view::npos) result.lowered = true;
+  }
+  if (result.lowered) {
+    std::transform(text.begin(), text.end(), result.text.begin(), lower);
+  }
+  return result;
+}
+
+std::string textRefusal(const std::string& field) {
+  return field +
+         " holds a character that would break the sentence; printable ASCII without comma, asterisk "
+         "and $ is accepted";
+}
+
+}  // namespace frontseat_driver::session
