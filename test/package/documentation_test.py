@@ -1,0 +1,86 @@
+#!/usr/bin/env python3
+"""README, messages and sources say what they must, and nothing that is not the project's."""
+
+import os
+import re
+import unittest
+import xml.etree.ElementTree as xml
+
+import package_under_test as package
+
+FIELD = re.compile(r"^\s*[\w/]+(?:\[\])?\s+\w+\s*(#.*)?$")
+CONSTANT = re.compile(r"^\s*\w+\s+[A-Z_0-9]+\s*=")
+OPEN_END = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X)\b")
+ONE_MACHINE = re.compile(r"/(home|root|work)/\w")
+TEXT = (".cpp", ".h", ".py", ".md", ".rst", ".launch", ".yaml", ".msg", ".srv", ".txt", ".xml",
+        ".bash", ".cmake", ".test", ".urdf", ".rviz")
+
+
+def rows(heading):
+    """The first cells of the tables below a heading of the README, code marks taken off."""
+    text = package.read("README.md")
+    section = re.search(r"^#+ %s\n(.*?)(?=^#+ |\Z)" % re.escape(heading), text, re.S | re.M)
+    cells = re.findall(r"^\| (`[^|]*?) \|", section.group(1), re.M)
+    return {name for cell in cells for name in re.findall(r"`([^`]+)`", cell)}
+
+
+class Documentation(unittest.TestCase):
+    def test_readme_lists_every_topic(self):
+        self.assertEqual(set(package.topics_in_code()) | {"/tf", "/tf_static", "/diagnostics"},
+                         rows("Topics"))
+
+    def test_readme_lists_every_parameter(self):
+        self.assertEqual(package.parameters_in_code(), rows("Parameters"))
+
+    def test_readme_names_every_launch_file_and_its_pictures_exist(self):
+        readme = package.read("README.md")
+        for path in package.files("launch", ".launch"):
+            self.assertIn(os.path.basename(path), readme)
+        targets = re.findall(r"\]\(([^)#:]+)\)", readme)
+        self.assertTrue(targets)
+        for target in targets:
+            self.assertTrue(os.path.exists(os.path.join(package.ROOT, target)), target)
+
+    def test_readme_shows_both_commands(self):
+        for command in ("make demo", "make test"):
+            self.assertIn(command, package.read("README.md"))
+
+    def test_every_message_field_is_explained(self):
+        for path in package.files("msg", ".msg") + package.files("srv", ".srv"):
+            lines = [line for line in package.read(path).splitlines() if line.strip()]
+            self.assertTrue(lines[0].startswith("# "), path)
+            told = ""
+            for line in lines:
+                field = FIELD.match(line)
+                if field and not CONSTANT.match(line):
+                    self.assertTrue(field.group(1) or told or self.is_counter(line),
+                                    "%s: %s" % (path, line))
+
+    @staticmethod
+    def is_counter(line):
+        """A name that says it all: connected, bytes_received."""
+        return re.search(r"\b(connected|\w+_(received|sent))$", line)
+
+    def test_every_message_is_built(self):
+        build = package.read("CMakeLists.txt")
+        for path in package.files("msg", ".msg") + package.files("srv", ".srv"):
+            self.assertIn(os.path.basename(path), build)
+
+    def test_nothing_is_left_open_and_nothing_names_one_machine(self):
+        for path in package.tracked_files():
+            if not path.endswith(TEXT) and "." in os.path.basename(path):
+                continue
+            for number, line in enumerate(package.read(path).splitlines(), 1):
+                place = "%s:%d: %s" % (path, number, line)
+                self.assertIsNone(OPEN_END.search(line), place)
+                if path != os.path.join("test", "package", os.path.basename(__file__)):
+                    self.assertIsNone(ONE_MACHINE.search(line), place)
+
+    def test_version_and_changelog_agree(self):
+        version = xml.parse(os.path.join(package.ROOT, "package.xml")).findtext("version")
+        newest = re.findall(r"^(Forthcoming|\d+\.\d+\.\d+)", package.read("CHANGELOG.rst"), re.M)[0]
+        self.assertIn(newest, ("Forthcoming", version))
+
+
+if __name__ == "__main__":
+    package.run(Documentation)
