@@ -1,8 +1,10 @@
 #include "frontseat_driver/session/nmea_session.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "frontseat_driver/session/sentence_text.h"
 #include "frontseat_driver/session/to_vehicle.h"
 #include "frontseat_driver/vehicle/date_resolution.h"
 
@@ -12,9 +14,15 @@ namespace {
 
 using namespace std::chrono_literals;
 using protocol::Dialect;
+using vehicle::Acknowledgement;
 
 constexpr auto kDialectPatience = 2s;
 constexpr std::string_view kAck = "ACK";
+constexpr std::string_view kAll = "ALL";
+
+constexpr const char* kNoConnection = "there is no connection to the vehicle";
+constexpr const char* kLeaving = "the driver is stopping";
+constexpr const char* kRecord = "a record is being played";
 
 // Acknowledgements first, so that the other requests are acknowledged (SPI 0.1, section 7.1).
 std::vector<std::string> logRequests(const NmeaOptions& options) {
@@ -26,8 +34,33 @@ std::vector<std::string> logRequests(const NmeaOptions& options) {
   return requests;
 }
 
+std::chrono::nanoseconds periodOf(double rate_hz) {
+  if (rate_hz <= 0.0) return std::chrono::nanoseconds::max();
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>{1.0 / rate_hz});
+}
+
 vehicle::Event toEvent(const ControlState& state) {
   return vehicle::Control{state.grant, state.commands_enabled, state.commanding, state.reason};
+}
+
+std::string otherDialect(Dialect command, Dialect vehicle) {
+  return std::string{"it is for a "} + protocol::toString(command) + ", and the vehicle is a " +
+         protocol::toString(vehicle);
+}
+
+bool isLogName(const std::string& name) {
+  return name.size() == 3 && std::all_of(name.begin(), name.end(), [](char letter) {
+           return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
+         });
+}
+
+std::string_view formatterOf(const Request& request) {
+  if (std::holds_alternative<AbortRequest>(request)) {
+    return protocol::bluefin::AbortMission::kFormatter;
+  }
+  if (std::holds_alternative<LogSwitch>(request)) return protocol::bluefin::LogRequest::kFormatter;
+  return protocol::bluefin::BehaviorChange::kFormatter;
 }
 
 }  // namespace
@@ -35,12 +68,19 @@ vehicle::Event toEvent(const ControlState& state) {
 NmeaSession::NmeaSession(NmeaOptions options)
     : options_(std::move(options)),
       log_requests_(logRequests(options_)),
-      permission_(options_.control_hook, options_.commands_enabled) {}
+      use_acks_(options_.use_acks),
+      permission_(options_.control_hook, options_.commands_enabled),
+      slot_(options_.command_timeout, periodOf(options_.command_rate_hz)),
+      requests_(options_.ack_timeout),
+      effect_(options_.effect_timeout) {}
+
+// --- The connection ---
 
 void NmeaSession::connected(const Now& now, Output& out) {
   connected_ = true;
   confirmed_ = false;
   version_sent_ = false;
+  command_was_last_ = false;
   next_send_ = now.steady;
   permission_.connected();
   if (!options_.listen_only) handshake_due_ = now.steady + kDialectPatience;
@@ -52,10 +92,38 @@ void NmeaSession::disconnected(const Now& now, Output& out) {
   connected_ = false;
   dialect_.reset();
   handshake_due_ = SteadyTime::max();
+  status_due_ = SteadyTime::max();
   framer_.reset();
+  slot_.clear();
+  zero_due_ = false;
+  effect_.clear();
+  acks_.clear();
+  present_ = {};
   permission_.disconnected();
+  requests_.failAll("the connection was lost before the vehicle answered");
   reportControl(now, out);
 }
+
+void NmeaSession::leave(const Now& now, Output& out) {
+  endCommanding(now, out);
+  leaving_ = true;
+  if (!connected_) zero_due_ = false;
+  handshake_due_ = SteadyTime::max();
+  status_due_ = SteadyTime::max();
+  requests_.failAll(kLeaving);
+}
+
+void NmeaSession::learnDialect(const Now& now, Dialect dialect, Output& out) {
+  dialect_ = dialect;
+  permission_.setDialect(dialect);
+  next_log_request_ = 0;
+  const bool speaks = dialect == Dialect::Sandshark && !options_.listen_only && !leaving_;
+  handshake_due_ = speaks ? std::max(now.steady, next_send_) : SteadyTime::max();
+  status_due_ = speaks && options_.status_rate_hz > 0.0 ? now.steady : SteadyTime::max();
+  reportControl(now, out);
+}
+
+// --- What the vehicle says ---
 
 void NmeaSession::receive(const Now& now, std::string_view bytes, Output& out) {
   framer_.feed(bytes, [&](std::string_view line) { hear(now, line, out); });
@@ -85,15 +153,53 @@ void NmeaSession::take(const Now& now, const nmea::Sentence& sentence, Output& o
 }
 
 void NmeaSession::takeMessage(const Now& now, const protocol::Message& message, Output& out) {
-  const auto event = toVehicle(message);
-  if (event) out.event(now, *event);
+  auto event = toVehicle(message);
+  if (event) {
+    if (auto* ack = std::get_if<Acknowledgement>(&*event)) takeAcknowledgement(now, *ack);
+    takeMotion(now, *event);
+    out.event(now, *event);
+  }
   if (const auto* control = std::get_if<protocol::bluefin::BackseatControl>(&message)) {
     permission_.take(*control);
-    reportControl(now, out);
+    permissionChanged(now, out);
   } else if (const auto* mission = std::get_if<protocol::bluefin::MissionStatus>(&message)) {
     permission_.take(toVehicle(*mission).state);
-    reportControl(now, out);
+    permissionChanged(now, out);
   }
+}
+
+void NmeaSession::takeAcknowledgement(const Now& now, Acknowledgement& ack) {
+  const auto sent = acks_.match(ack, now.steady);
+  if (!sent) return;
+  ack.round_trip = now.steady - sent->at;
+  if (sent->request != AckTracker::kNoRequest) requests_.take(sent->request, ack);
+}
+
+void NmeaSession::takeMotion(const Now& now, const vehicle::Event& event) {
+  if (const auto* navigation = std::get_if<vehicle::Navigation>(&event)) {
+    present_.heading_deg = navigation->heading_deg;
+    present_.depth_m = navigation->depth_m;
+    navigation_at_ = now.steady;
+  } else if (const auto* velocity = std::get_if<vehicle::Velocity>(&event)) {
+    present_.speed_m_s.reset();
+    if (velocity->east_m_s && velocity->north_m_s) {
+      present_.speed_m_s = std::hypot(*velocity->east_m_s, *velocity->north_m_s);
+    }
+    velocity_at_ = now.steady;
+  } else {
+    return;
+  }
+  if (slot_.occupied()) effect_.measured(present(now), now.steady);
+}
+
+PresentState NmeaSession::present(const Now& now) const {
+  PresentState fresh = present_;
+  if (now.steady - navigation_at_ > options_.max_data_age) {
+    fresh.heading_deg.reset();
+    fresh.depth_m.reset();
+  }
+  if (now.steady - velocity_at_ > options_.max_data_age) fresh.speed_m_s.reset();
+  return fresh;
 }
 
 void NmeaSession::count(const nmea::Failure& failure) {
@@ -109,36 +215,241 @@ void NmeaSession::count(const nmea::Failure& failure) {
   }
 }
 
-void NmeaSession::learnDialect(const Now& now, Dialect dialect, Output& out) {
-  dialect_ = dialect;
-  permission_.setDialect(dialect);
-  next_log_request_ = 0;
-  const bool handshake = dialect == Dialect::Sandshark && !options_.listen_only;
-  handshake_due_ = handshake ? std::max(now.steady, next_send_) : SteadyTime::max();
+// --- What the user wants ---
+
+std::string NmeaSession::command(const Now& now, const vehicle::Command& command,
+                                 SteadyTime received, Output& out) {
+  const std::string refusal = refusalOf(now, command);
+  if (!refusal.empty()) {
+    ++counters_.refused_commands;
+    return refusal;
+  }
+  slot_.put(command, received);
+  effect_.commanded(command, present(now), now.steady);
+  reportControl(now, out);
+  return {};
+}
+
+std::string NmeaSession::refusalOf(const Now& now, const vehicle::Command& command) const {
+  if (leaving_) return kLeaving;
+  if (options_.listen_only) return kRecord;
+  const ControlState control = permission_.state();
+  if (!control.reason.empty()) return std::string{control.reason};
+  if (dialectOf(command) != *dialect_) return otherDialect(dialectOf(command), *dialect_);
+  const PresentState known = present(now);
+  const bool known_all = known.heading_deg && known.depth_m && known.speed_m_s;
+  if (!isBoat() && options_.format.fill_behavior_fields && !known_all) {
+    return "the vehicle's present heading, depth and speed are not known, and parameter "
+           "fill_behavior_fields needs them";
+  }
+  return {};
+}
+
+void NmeaSession::stop(const Now& now, Output& out) {
+  endCommanding(now, out);
+  zero_due_ = connected_ && isBoat() && !options_.listen_only && !hasLeft();
+}
+
+void NmeaSession::setCommandsEnabled(const Now& now, bool enabled, Output& out) {
+  permission_.setCommandsEnabled(enabled);
+  permissionChanged(now, out);
+}
+
+void NmeaSession::permissionChanged(const Now& now, Output& out) {
+  if (!permission_.granted()) endCommanding(now, out);
   reportControl(now, out);
 }
 
-void NmeaSession::step(const Now& now, Output& out) {
-  if (!reported_control_) reportControl(now, out);
-  if (connected_ && now.steady >= handshake_due_) continueHandshake(now, out);
+void NmeaSession::endCommanding(const Now& now, Output& out) {
+  if (!slot_.occupied()) return;
+  slot_.clear();
+  effect_.clear();
+  zero_due_ = isBoat();
+  reportControl(now, out);
 }
 
-void NmeaSession::continueHandshake(const Now& now, Output& out) {
-  bool sent = false;
+void NmeaSession::request(const Now& now, Request request, Respond respond, Output& out) {
+  std::string note;
+  if (auto* abort = std::get_if<AbortRequest>(&request)) {
+    const auto text = toSentenceText(abort->reason);
+    if (!text) return respond({false, textRefusal("reason")});
+    abort->reason = text->text;
+    if (text->lowered) note = "the reason was sent in lower case: it held a command's name";
+  }
+  const std::string refusal = refusalOf(request, now);
+  const auto* log = std::get_if<LogSwitch>(&request);
+  if (log && isLogName(log->sentence) && !isBoat()) remember(*log);
+  if (!refusal.empty()) return respond({false, refusal});
+  if (std::holds_alternative<AbortRequest>(request)) endCommanding(now, out);
+  requests_.add(std::move(request), std::move(note), std::move(respond), now.steady);
+}
+
+std::string NmeaSession::refusalOf(const Request& request, const Now& now) const {
+  if (leaving_) return kLeaving;
+  if (const auto* log = std::get_if<LogSwitch>(&request); log && !isLogName(log->sentence)) {
+    return "sentence is '" + log->sentence +
+           "'; three capital letters such as NVG, or ALL, are accepted";
+  }
+  const auto sentence = sentenceFor(request, now).finish();
+  if (!sentence || sentence->size() > kMostBytesSent) {
+    return "the sentence cannot be sent: at most 200 bytes of printable ASCII are accepted";
+  }
+  if (!connected_) return kNoConnection;
+  if (options_.listen_only) return kRecord;
+  if (requests_.full()) return "too many requests are waiting for the vehicle";
+  if (std::holds_alternative<RawSentence>(request)) return {};
+  if (!dialect_) return "the vehicle has not shown its dialect yet; parameter dialect sets it";
+  if (isBoat()) return otherDialect(Dialect::Sandshark, *dialect_);
+  if (const auto* behavior = std::get_if<vehicle::BehaviorCommand>(&request)) {
+    return refusalOf(now, *behavior);
+  }
+  return {};
+}
+
+// A handshake under way starts again: asking twice does no harm, leaving one out would.
+void NmeaSession::remember(const LogSwitch& log) {
+  const bool all_asked = next_log_request_ == log_requests_.size();
+  const bool nothing_more = log.sentence == kAll && !log.enable;
+  const auto forgotten = [&](const std::string& sentence) {
+    return sentence == log.sentence || (nothing_more && sentence != kAck);
+  };
+  log_requests_.erase(std::remove_if(log_requests_.begin(), log_requests_.end(), forgotten),
+                      log_requests_.end());
+  if (log.sentence == kAck) use_acks_ = log.enable;
+  if (log.enable) {
+    log_requests_.insert(log.sentence == kAck ? log_requests_.begin() : log_requests_.end(),
+                         log.sentence);
+  }
+  next_log_request_ = all_asked ? log_requests_.size() : 0;
+}
+
+std::string NmeaSession::setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status) {
+  const auto text = toSentenceText(status.message);
+  if (!text) return textRefusal("message");
+  protocol::bluefin::PayloadStatus sentence;
+  sentence.sent_at = vehicle::timeOfDay(now.utc);
+  sentence.ok = status.ok;
+  sentence.message = text->text;
+  nmea::SentenceWriter writer = protocol::write(sentence);
+  const auto line = writer.finish();
+  if (!line || line->size() > kMostBytesSent) {
+    return "message has " + std::to_string(status.message.size()) +
+           " characters; a sentence takes 200 bytes in all";
+  }
+  payload_status_ = {status.ok, text->text};
+  if (status_due_ != SteadyTime::max()) status_due_ = now.steady;
+  return {};
+}
+
+// --- What goes out ---
+
+void NmeaSession::step(const Now& now, Output& out) {
+  if (!reported_control_) reportControl(now, out);
+  if (slot_.stale(now.steady)) endCommanding(now, out);
+  requests_.expire(now.steady);
+  if (connected_ && now.steady >= next_send_) sendWhatIsDue(now, out);
+}
+
+// One sentence at a time: next_send_ then holds the others back.
+void NmeaSession::sendWhatIsDue(const Now& now, Output& out) {
+  if (sendUrgent(now, out)) return;
+  if (command_was_last_ && sendOther(now, out)) return;
+  if (sendCommand(now, out)) return;
+  sendOther(now, out);
+}
+
+bool NmeaSession::sendUrgent(const Now& now, Output& out) {
+  if (zero_due_) {
+    zero_due_ = !send(now, zeroThrust(), out);
+    return true;
+  }
+  const auto* abort = requests_.dueAbort(now.steady);
+  return abort && sendRequest(now, *abort, out);
+}
+
+bool NmeaSession::sendCommand(const Now& now, Output& out) {
+  const vehicle::Command* command = slot_.due(now.steady);
+  if (!command || !permission_.granted()) return false;
+  command_was_last_ = true;
+  const auto time = vehicle::timeOfDay(now.utc);
+  if (!send(now, commandSentence(*command, options_.format, present(now), time), out)) return true;
+  slot_.sent(now.steady);
+  if (!isBoat() && use_acks_) {
+    acks_.sent({protocol::bluefin::BehaviorChange::kFormatter, time, AckTracker::kNoRequest,
+                now.steady});
+  }
+  return true;
+}
+
+bool NmeaSession::sendOther(const Now& now, Output& out) {
+  command_was_last_ = false;
+  if (now.steady >= handshake_due_) return sendHandshake(now, out);
+  const auto* open = requests_.dueOther(now.steady);
+  if (open) return sendRequest(now, *open, out);
+  return now.steady >= status_due_ && sendStatus(now, out);
+}
+
+bool NmeaSession::sendHandshake(const Now& now, Output& out) {
   if (!version_sent_) {
     protocol::bluefin::PayloadVersion version;
     version.sent_at = vehicle::timeOfDay(now.utc);
     version.version = options_.interface_version;
-    sent = version_sent_ = send(now, protocol::write(version), out);
+    version_sent_ = send(now, protocol::write(version), out);
   } else if (next_log_request_ < log_requests_.size()) {
     protocol::bluefin::LogRequest request;
     request.sentence = log_requests_[next_log_request_];
     request.on = true;
-    sent = send(now, protocol::write(request), out);
-    next_log_request_ += sent ? 1 : 0;
+    if (send(now, protocol::write(request), out)) ++next_log_request_;
   }
-  const bool more = dialect_ && next_log_request_ < log_requests_.size();
-  handshake_due_ = more || !sent ? now.steady + sendSpacing() : SteadyTime::max();
+  const bool more = !version_sent_ || (dialect_ && next_log_request_ < log_requests_.size());
+  if (!more) handshake_due_ = SteadyTime::max();
+  return true;
+}
+
+bool NmeaSession::sendRequest(const Now& now, const RequestQueue::Open& open, Output& out) {
+  if (!send(now, sentenceFor(open.request, now), out)) return true;
+  const bool raw = std::holds_alternative<RawSentence>(open.request);
+  const bool has_time = !std::holds_alternative<LogSwitch>(open.request);
+  if (!raw && use_acks_) {
+    const auto time = has_time ? std::optional{vehicle::timeOfDay(now.utc)} : std::nullopt;
+    acks_.sent({formatterOf(open.request), time, open.id, now.steady});
+  }
+  requests_.sent(open.id, now.steady, use_acks_);
+  return true;
+}
+
+nmea::SentenceWriter NmeaSession::sentenceFor(const Request& request, const Now& now) const {
+  const auto time = vehicle::timeOfDay(now.utc);
+  if (const auto* abort = std::get_if<AbortRequest>(&request)) {
+    protocol::bluefin::AbortMission sentence;
+    sentence.sent_at = time;
+    sentence.message = abort->reason;
+    sentence.with_errors = abort->with_errors;
+    return protocol::write(sentence);
+  }
+  if (const auto* log = std::get_if<LogSwitch>(&request)) {
+    protocol::bluefin::LogRequest sentence;
+    sentence.sentence = log->sentence;
+    sentence.on = log->enable;
+    return protocol::write(sentence);
+  }
+  if (const auto* raw = std::get_if<RawSentence>(&request)) return rawSentence(raw->body);
+  return commandSentence(std::get<vehicle::BehaviorCommand>(request), options_.format, present(now),
+                         time);
+}
+
+bool NmeaSession::sendStatus(const Now& now, Output& out) {
+  protocol::bluefin::PayloadStatus status;
+  status.sent_at = vehicle::timeOfDay(now.utc);
+  status.ok = payload_status_.ok;
+  status.message = payload_status_.message;
+  if (!send(now, protocol::write(status), out)) return true;
+  status_due_ = now.steady + periodOf(options_.status_rate_hz);
+  if (use_acks_) {
+    acks_.sent({protocol::bluefin::PayloadStatus::kFormatter, status.sent_at,
+                AckTracker::kNoRequest, now.steady});
+  }
+  return true;
 }
 
 bool NmeaSession::send(const Now& now, nmea::SentenceWriter sentence, Output& out) {
@@ -151,11 +462,28 @@ bool NmeaSession::send(const Now& now, nmea::SentenceWriter sentence, Output& ou
 }
 
 SteadyTime NmeaSession::nextStep() const {
-  return reported_control_ ? handshake_due_ : SteadyTime::min();
+  if (!reported_control_) return SteadyTime::min();
+  return std::min({slot_.staleAt(), requests_.nextDeadline(), nextSend()});
+}
+
+SteadyTime NmeaSession::nextSend() const {
+  if (!connected_) return SteadyTime::max();
+  if (zero_due_) return next_send_;
+  const SteadyTime due =
+      std::min({slot_.nextDue(), requests_.nextDue(), handshake_due_, status_due_});
+  return std::max(due, next_send_);
+}
+
+// --- Reports ---
+
+ControlState NmeaSession::control() const {
+  ControlState state = permission_.state();
+  state.commanding = slot_.occupied();
+  return state;
 }
 
 void NmeaSession::reportControl(const Now& now, Output& out) {
-  const ControlState state = permission_.state();
+  const ControlState state = control();
   if (reported_control_ == state) return;
   reported_control_ = state;
   out.event(now, toEvent(state));
@@ -163,7 +491,7 @@ void NmeaSession::reportControl(const Now& now, Output& out) {
 
 std::chrono::milliseconds NmeaSession::sendSpacing() const {
   if (options_.send_spacing) return *options_.send_spacing;
-  return dialect_ == Dialect::Kingfisher ? 20ms : 60ms;
+  return isBoat() ? 20ms : 60ms;
 }
 
 NmeaCounters NmeaSession::counters() const {

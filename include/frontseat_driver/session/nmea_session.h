@@ -10,8 +10,14 @@
 
 #include "frontseat_driver/nmea/framer.h"
 #include "frontseat_driver/protocol/message.h"
+#include "frontseat_driver/session/ack_tracker.h"
+#include "frontseat_driver/session/command_sentence.h"
+#include "frontseat_driver/session/command_slot.h"
+#include "frontseat_driver/session/effect_monitor.h"
 #include "frontseat_driver/session/permission.h"
+#include "frontseat_driver/session/request_queue.h"
 #include "frontseat_driver/session/session.h"
+#include "frontseat_driver/vehicle/command.h"
 
 namespace frontseat_driver::session {
 
@@ -25,6 +31,14 @@ struct NmeaOptions {
   ControlHook control_hook = ControlHook::Ctl;
   std::optional<std::chrono::milliseconds> send_spacing;  ///< empty: 60 sandshark, 20 kingfisher
   bool listen_only = false;  ///< a record is played: nothing is ever sent
+
+  std::chrono::nanoseconds command_timeout{std::chrono::seconds{1}};
+  double command_rate_hz = 5.0;
+  CommandFormat format;
+  std::chrono::nanoseconds ack_timeout{std::chrono::seconds{3}};
+  std::chrono::nanoseconds effect_timeout{std::chrono::seconds{10}};
+  std::chrono::nanoseconds max_data_age{std::chrono::seconds{2}};
+  double status_rate_hz = 1.0;  ///< BPSTS; 0: none
 };
 
 /// What came in and what became of it, since the session began.
@@ -43,12 +57,16 @@ struct NmeaCounters {
   std::uint64_t refused_commands = 0;
 };
 
-/// The conversation in either NMEA dialect (SPI 0.1, section 4; Kingfisher 0.1, section 2).
+/// The conversation in either NMEA dialect (SPI 0.1, section 4; Kingfisher 0.1, sections 2 and 4).
 ///
 /// After every connect to a Sandshark: BPVER, BPLOG ACK, then the other log sentences, one write
-/// each, send_spacing apart, waiting for no answer. A Kingfisher is sent nothing. With no dialect
-/// given, the first BF or CP talker of the connection decides; after two seconds without one BPVER
-/// is sent, which a boat ignores.
+/// each, send_spacing apart, waiting for no answer. A Kingfisher is sent nothing that was not asked
+/// for. With no dialect given, the first BF or CP talker of the connection decides; after two
+/// seconds without one BPVER is sent, which a boat ignores.
+///
+/// Commands: one newest, repeated while it is fresh and permitted. When commanding ends, for
+/// whatever reason but a lost link, a Kingfisher is sent one zero thrust and a Sandshark nothing, so
+/// that it takes over again. An abort or a zero thrust goes next, ahead of anything that waits.
 class NmeaSession : public Session {
  public:
   explicit NmeaSession(NmeaOptions options);
@@ -58,38 +76,104 @@ class NmeaSession : public Session {
   void receive(const Now& now, std::string_view bytes, Output& out) override;
   void step(const Now& now, Output& out) override;
   SteadyTime nextStep() const override;
+  void leave(const Now& now, Output& out) override;
+  bool hasLeft() const override { return leaving_ && !zero_due_; }
+
+  /// Takes the place of the command before. `received` is when it reached this computer. Returns why
+  /// it was refused, or nothing; a refused command changes nothing.
+  std::string command(const Now& now, const vehicle::Command& command, SteadyTime received,
+                      Output& out);
+
+  /// Ends commanding at once; a connected Kingfisher hears zero thrust in any case.
+  void stop(const Now& now, Output& out);
+
+  /// Opens or closes the gate. Closing ends commanding; opening revives nothing.
+  void setCommandsEnabled(const Now& now, bool enabled, Output& out);
+
+  /// Sends the request as soon as spacing allows and answers once, within ack_timeout; from inside
+  /// this call if it cannot be sent. The respond function must not call the session.
+  void request(const Now& now, Request request, Respond respond, Output& out);
+
+  /// What BPSTS says from now on, at once and at status_rate. Returns why it was refused, or nothing.
+  std::string setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status);
+
+  /// Counts a command that was refused before it got here.
+  void countRefusedCommand() { ++counters_.refused_commands; }
 
   /// As given or as heard on this connection; empty while not known.
   std::optional<protocol::Dialect> dialect() const { return dialect_; }
 
   NmeaCounters counters() const;
 
+  ControlState control() const;
+
+  /// Commanded and measured, where the vehicle does not follow; empty while all is well.
+  const std::string& effectComplaint() const { return effect_.complaint(); }
+
+  /// Commands sent that the vehicle has not acknowledged yet.
+  std::size_t unacknowledged() const { return acks_.outstanding(); }
+
  private:
   void hear(const Now& now, std::string_view line, Output& out);
   void take(const Now& now, const nmea::Sentence& sentence, Output& out);
   void takeMessage(const Now& now, const protocol::Message& message, Output& out);
+  void takeAcknowledgement(const Now& now, vehicle::Acknowledgement& ack);
+  void takeMotion(const Now& now, const vehicle::Event& event);
   void count(const nmea::Failure& failure);
   void learnDialect(const Now& now, protocol::Dialect dialect, Output& out);
-  void continueHandshake(const Now& now, Output& out);
+  void permissionChanged(const Now& now, Output& out);
+  void endCommanding(const Now& now, Output& out);
+
+  std::string refusalOf(const Now& now, const vehicle::Command& command) const;
+  std::string refusalOf(const Request& request, const Now& now) const;
+  void remember(const LogSwitch& log);
+  PresentState present(const Now& now) const;
+
+  void sendWhatIsDue(const Now& now, Output& out);
+  bool sendUrgent(const Now& now, Output& out);
+  bool sendCommand(const Now& now, Output& out);
+  bool sendOther(const Now& now, Output& out);
+  bool sendHandshake(const Now& now, Output& out);
+  bool sendRequest(const Now& now, const RequestQueue::Open& open, Output& out);
+  bool sendStatus(const Now& now, Output& out);
   bool send(const Now& now, nmea::SentenceWriter sentence, Output& out);
+  nmea::SentenceWriter sentenceFor(const Request& request, const Now& now) const;
+
   void reportControl(const Now& now, Output& out);
+  bool isBoat() const { return dialect_ == protocol::Dialect::Kingfisher; }
+  SteadyTime nextSend() const;
   std::chrono::milliseconds sendSpacing() const;
 
   const NmeaOptions options_;
-  const std::vector<std::string> log_requests_;  ///< in the order they are sent
+  std::vector<std::string> log_requests_;  ///< in the order they are sent, ACK first
+  bool use_acks_;
 
   nmea::Framer framer_;
   NmeaCounters counters_;
   Permission permission_;
   std::optional<ControlState> reported_control_;
 
+  // Of this connection.
   std::optional<protocol::Dialect> dialect_;
   bool connected_ = false;
-  bool confirmed_ = false;     ///< a good sentence was heard on this connection
-  bool version_sent_ = false;  ///< BPVER went out on this connection
+  bool confirmed_ = false;     ///< a good sentence was heard
+  bool version_sent_ = false;  ///< BPVER went out
   std::size_t next_log_request_ = 0;
   SteadyTime handshake_due_ = SteadyTime::max();
+  SteadyTime status_due_ = SteadyTime::max();
   SteadyTime next_send_{};  ///< when send_spacing allows the next sentence
+
+  CommandSlot slot_;
+  bool zero_due_ = false;          ///< a Kingfisher is to hear zero thrust
+  bool command_was_last_ = false;  ///< so that a fast publisher leaves room for everything else
+  bool leaving_ = false;
+  RequestQueue requests_;
+  AckTracker acks_;
+  EffectMonitor effect_;
+  vehicle::PayloadStatus payload_status_{true, "OK"};
+  PresentState present_;
+  SteadyTime navigation_at_{};
+  SteadyTime velocity_at_{};
 };
 
 }  // namespace frontseat_driver::session

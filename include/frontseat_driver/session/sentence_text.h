@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
+
+#include "frontseat_driver/nmea/sentence_writer.h"
 
 namespace frontseat_driver::session {
 
@@ -22,5 +25,9 @@ std::optional<SentenceText> toSentenceText(std::string_view text);
 
 /// What is wrong with a text that toSentenceText() refused, naming its field.
 std::string textRefusal(const std::string& field);
+
+/// A sentence as the user wrote it, "PYDIR,0,0", with or without `$`; the checksum is added. What is
+/// no sentence makes the writer invalid.
+nmea::SentenceWriter rawSentence(std::string_view body);
 
 }  // namespace frontseat_driver::session

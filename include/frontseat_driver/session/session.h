@@ -44,6 +44,12 @@ class Session {
 
   /// When step() has something to do next; SteadyTime::max() if nothing is planned.
   virtual SteadyTime nextStep() const = 0;
+
+  /// The program is going to end: plans what the vehicle must still hear, and nothing after it.
+  virtual void leave(const Now& /*now*/, Output& /*out*/) {}
+
+  /// Everything planned by leave() has been sent.
+  virtual bool hasLeft() const { return true; }
 };
 
 }  // namespace frontseat_driver::session
