@@ -178,8 +178,6 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     socket_.set_option(tcp::no_delay(true), ignored);
     socket_.set_option(tcp::socket::keep_alive(true), ignored);
     socket_.set_option(tcp::socket::send_buffer_size(kSendBuffer), ignored);
-    const auto silence_ms = static_cast<int>(options_.silence_timeout.count());
-    setTcpOption(socket_, TCP_USER_TIMEOUT, silence_ms);
   }
 
   std::string noAnswerText() const {
@@ -212,6 +210,8 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     failure_.clear();
     error_code ignored;
     socket_.non_blocking(true, ignored);
+    const auto silence_ms = static_cast<int>(options_.silence_timeout.count());
+    setTcpOption(socket_, TCP_USER_TIMEOUT, silence_ms);
     last_byte_ = Clock::now();
     timeOutAt(last_byte_ + options_.silence_timeout, &Impl::checkSilence);
     waitForBytes();

@@ -1,0 +1,76 @@
+#include "test/link/interposed.h"
+
+#include <dlfcn.h>
+#include <netdb.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <string>
+
+namespace {
+
+std::mutex mutex;
+std::condition_variable released;
+bool hanging = true;
+std::atomic<bool> to_itself{false};
+
+template <class Function>
+Function* original(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+int resolve(const char* node, const char* service, const addrinfo* hints, addrinfo** result) {
+  static const auto system = original<decltype(getaddrinfo)>("getaddrinfo");
+  return system(node, service, hints, result);
+}
+
+int resolveTwo(const char* service, const addrinfo* hints, addrinfo** result) {
+  addrinfo* second = nullptr;
+  resolve("127.0.0.2", service, hints, result);
+  resolve("127.0.0.1", service, hints, &second);
+  (*result)->ai_next = second;
+  return 0;
+}
+
+}  // namespace
+
+extern "C" int getaddrinfo(const char* node, const char* service, const addrinfo* hints,
+                           addrinfo** result) {
+  const std::string name = node == nullptr ? "" : node;
+  if (name == "absent.test") return EAI_NONAME;
+  if (name == "broken.test") return EAI_AGAIN;
+  if (name == "second.test") return resolveTwo(service, hints, result);
+  if (name != "hanging.test") return resolve(node, service, hints, result);
+  std::unique_lock<std::mutex> lock(mutex);
+  released.wait(lock, [] { return !hanging; });
+  return resolve("127.0.0.1", service, hints, result);
+}
+
+extern "C" int connect(int fd, const sockaddr* address, socklen_t size) {
+  static const auto system = original<int(int, const sockaddr*, socklen_t)>("connect");
+  const int on = 1;
+  if (to_itself && (setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
+                    bind(fd, address, size) != 0)) {
+    return -1;
+  }
+  return system(fd, address, size);
+}
+
+namespace frontseat_driver::link::testing {
+
+void hangNames() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  hanging = true;
+}
+
+void releaseHangingNames() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  hanging = false;
+  released.notify_all();
+}
+
+void connectToItself(bool on) { to_itself = on; }
+
+}  // namespace frontseat_driver::link::testing
