@@ -20,6 +20,8 @@ using vehicle::SteadyTime;
 namespace {
 
 constexpr std::chrono::seconds kTick{1};
+// For the session's last words; with the orderly close after them within the 100 ms of stop().
+constexpr std::chrono::milliseconds kLastWords{40};
 
 std::string_view withoutLineEnd(std::string_view sentence) {
   const auto last = sentence.find_last_not_of("\r\n");
@@ -60,6 +62,8 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
     });
   }
 
+  session::Output& output() { return *this; }
+
  private:
   void run() {
     pthread_setname_np(pthread_self(), "frontseat");
@@ -70,11 +74,21 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
     io_.run();
   }
 
-  /// Ends all that keeps run() going. The link is still up here, so what must be said last is said
-  /// before it is closed.
+  /// The link is still up here, so that what must be said last is said before it is closed.
   void leave() {
-    left_ = true;
+    const Now now = clock_();
+    leaving_ = true;
+    session_.leave(now, *this);
+    leave_timer_.expires_after(kLastWords);
+    leave_timer_.async_wait([this](const error_code&) { finishLeaving(); });
+    step(now);
+  }
+
+  /// Ends all that keeps run() going.
+  void finishLeaving() {
+    if (std::exchange(left_, true)) return;
     client_.close();
+    leave_timer_.cancel();
     step_timer_.cancel();
     tick_timer_.cancel();
     work_.reset();
@@ -126,6 +140,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
 
   void step(const Now& now) {
     session_.step(now, *this);
+    if (leaving_ && (session_.hasLeft() || !client_.connected())) return finishLeaving();
     scheduleStep();
   }
 
@@ -173,10 +188,12 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
       io_.get_executor()};
   boost::asio::steady_timer step_timer_{io_};
   boost::asio::steady_timer tick_timer_{io_};
+  boost::asio::steady_timer leave_timer_{io_};
   SteadyTime step_timer_due_ = SteadyTime::max();  ///< max: the timer does not run
   SteadyTime next_tick_{};
   link::TcpClient client_;
-  bool left_ = false;  ///< touched by the driver's thread only
+  bool leaving_ = false;  ///< touched by the driver's thread only, as left_ is
+  bool left_ = false;
   std::atomic<bool> stopping_{false};
   std::mutex lifetime_;  ///< of the thread
   std::thread thread_;
@@ -191,6 +208,8 @@ Driver::~Driver() { stop(); }
 void Driver::start() { impl_->start(); }
 
 void Driver::stop() { impl_->stop(); }
+
+session::Output& Driver::output() { return impl_->output(); }
 
 void Driver::post(std::function<void(const Now&)> task) { impl_->post(std::move(task)); }
 

@@ -48,8 +48,8 @@ class Driver {
   /// stop().
   void start();
 
-  /// Ends any wait, closes the connection in order, and joins the thread. Within 100 ms, unless a
-  /// callback holds it up. May be called from any thread but the driver's own, at any time, and
+  /// Lets the session say its last words, ends any wait, closes the connection in order, and joins
+  /// the thread. Within 100 ms, unless a callback holds it up. May be called from any thread but the driver's own, at any time, and
   /// again. If there was a connection, the session and the listener are told that it ended; after
   /// that neither is called again.
   void stop();
@@ -57,6 +57,10 @@ class Driver {
   /// Runs `task` on the driver's thread, then a step of the session. From any thread; tasks run in
   /// order. Those posted before start() run at the start, those after stop() has begun never.
   void post(std::function<void(const vehicle::Now&)> task);
+
+  /// Where the session's output goes: what a posted task hands to the session. Use it on the
+  /// driver's thread only.
+  session::Output& output();
 
  private:
   class Impl;
