@@ -35,7 +35,7 @@ Fixed toFixed(double value, std::uint64_t scale) {
   const Wide half = Wide{1} << (shift - 1);
   const auto floor = static_cast<std::uint64_t>(scaled >> shift);
   const Wide cut = scaled - (Wide{floor} << shift);
-  const bool up = cut > half || (cut == half && (floor & 1) != 0);
+  const bool up = cut > half || (cut == half && ((floor + whole * scale) & 1) != 0);
   const std::uint64_t part = floor + (up ? 1 : 0);
   return part == scale ? Fixed{whole + 1, 0} : Fixed{whole, part};
 }
