@@ -34,7 +34,11 @@ BehaviorChange BehaviorChange::decode(nmea::FieldReader& in) {
 
 void BehaviorChange::encode(nmea::SentenceWriter& out) const {
   out.timeOfDay(sent_at);
-  out.number(horizontal, kAngleDecimals);
+  if (horizontal_mode == HorizontalMode::Heading) {
+    writeHeading(horizontal, kAngleDecimals, out);
+  } else {
+    out.number(horizontal, kAngleDecimals);
+  }
   out.number(vertical, kLengthDecimals);
   writeCode(vertical_mode, out);
   out.number(speed, kLengthDecimals);
