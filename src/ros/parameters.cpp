@@ -42,7 +42,11 @@ link::TcpClient::Options readLink(PrivateParameters& in) {
   link.silence_timeout =
       in.duration("silence_timeout", link.silence_timeout, above(0, kHour_s, "s"));
   if (link.reconnect_min <= link.reconnect_max) return link;
-  if (in.has("reconnect_max")) in.refuse("reconnect_max", "a number from reconnect_min to 3600 s");
+  if (in.has("reconnect_max")) {
+    const std::chrono::duration<double> least_s = link.reconnect_min;
+    const std::string least = toText(XmlRpc::XmlRpcValue(least_s.count()));
+    in.refuse("reconnect_max", "a number from reconnect_min, " + least + ", to 3600 s");
+  }
   in.refuse("reconnect_min", "a number above 0 and up to reconnect_max, 10 s,");
 }
 
@@ -139,7 +143,7 @@ void readReferences(PrivateParameters& in, Parameters& out) {
 std::vector<SpeedPoint> readSpeedTable(PrivateParameters& in) {
   constexpr const char* kAccepted =
       "a list of pairs [[m/s, rpm], ...] that increases in both, 0..10 m/s and -10000..10000 rpm,";
-  const std::vector<double> numbers = in.numbers("speed_table", kAccepted);
+  const std::vector<double> numbers = in.numbers("speed_table", kAccepted, 2);
   if (numbers.size() % 2 != 0) in.refuse("speed_table", kAccepted);
   std::vector<SpeedPoint> table;
   for (std::size_t i = 0; i < numbers.size(); i += 2) {

@@ -19,6 +19,9 @@ constexpr std::size_t kLongestValue = 100;
 
 /// Streams in the classic locale: the process that loads the nodelet may have set another.
 std::string fewestDigits(double value) {
+  if (value == std::floor(value) && std::abs(value) < 1e15) {
+    return std::to_string(static_cast<std::int64_t>(value));
+  }
   for (int digits = 1;; ++digits) {
     std::ostringstream out;
     out.imbue(std::locale::classic());
@@ -115,17 +118,17 @@ std::optional<double> parseNumber(const std::string& word) {
   return whole && std::isfinite(number) ? std::optional<double>(number) : std::nullopt;
 }
 
-/// Appends every number in `value`; false if there is anything else in it.
-bool appendNumbers(const XmlRpcValue& value, std::vector<double>& numbers) {
-  if (value.getType() == XmlRpcValue::TypeArray) {
-    for (int i = 0; i < value.size(); ++i) {
-      if (!appendNumbers(value[i], numbers)) return false;
-    }
-    return true;
+/// Appends every number in `list`, which may be one of lists of `row` numbers; false if there is
+/// anything else in it.
+bool appendNumbers(const XmlRpcValue& list, int row, std::vector<double>& numbers) {
+  for (int i = 0; i < list.size(); ++i) {
+    const bool is_row =
+        row > 0 && list[i].getType() == XmlRpcValue::TypeArray && list[i].size() == row;
+    const std::optional<double> number = asNumber(list[i]);
+    if (number) numbers.push_back(*number);
+    if (!number && !(is_row && appendNumbers(list[i], 0, numbers))) return false;
   }
-  const std::optional<double> number = asNumber(value);
-  if (number) numbers.push_back(*number);
-  return number.has_value();
+  return true;
 }
 
 bool appendParsed(const std::string& text, std::vector<double>& numbers) {
@@ -239,13 +242,14 @@ std::string PrivateParameters::textOrNumber(const std::string& name, const std::
   return text(name, fallback, accepted);
 }
 
-std::vector<double> PrivateParameters::numbers(const std::string& name, const char* accepted) {
+std::vector<double> PrivateParameters::numbers(const std::string& name, const char* accepted,
+                                               int row) {
   std::vector<double> numbers;
   const XmlRpcValue* value = find(name);
   if (value == nullptr) return numbers;
   const bool is_list = value->getType() == XmlRpcValue::TypeArray;
   const bool is_text = value->getType() == XmlRpcValue::TypeString;
-  const bool read = (is_list && appendNumbers(*value, numbers)) ||
+  const bool read = (is_list && appendNumbers(*value, row, numbers)) ||
                     (is_text && appendParsed(static_cast<const std::string&>(*value), numbers));
   if (!read) refuse(name, accepted);
   return numbers;

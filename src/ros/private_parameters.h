@@ -61,9 +61,10 @@ class PrivateParameters {
   std::string textOrNumber(const std::string& name, const std::string& fallback,
                            const char* accepted);
 
-  /// A list of numbers, of lists of numbers (flattened), or a string of numbers with blanks, commas
-  /// and brackets between them, which is what a command line can give. Empty if not set.
-  std::vector<double> numbers(const std::string& name, const char* accepted);
+  /// A list of numbers, or a string of numbers with blanks, commas and brackets between them, which
+  /// is what a command line can give. Empty if not set. With a `row` the list may also be one of
+  /// lists that have so many numbers each; they come out one after the other.
+  std::vector<double> numbers(const std::string& name, const char* accepted, int row = 0);
 
   /// A list of strings, or one string separated by blanks and commas.
   std::vector<std::string> words(const std::string& name, const std::vector<std::string>& fallback,
