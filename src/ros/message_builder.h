@@ -46,6 +46,10 @@ class MessageBuilder {
   /// As given, else the first valid position; empty before that.
   const std::optional<vehicle::Position>& datum() const { return datum_; }
 
+  /// How far the north that the vehicle's headings count from lies clockwise of true north: what a
+  /// commanded true heading must be turned back by. Empty while no position is known.
+  std::optional<double> northOffset_deg() const;
+
   /// Positions dropped because the vehicle cannot have got there, and how far the latest was off.
   std::uint64_t jumps() const { return filter_.jumps(); }
   double latestJump_m() const { return filter_.latestJump_m(); }
@@ -156,9 +160,15 @@ class MessageBuilder {
                          const vehicle::Now& arrival) const;
   ros::Time gpsStamp(std::optional<vehicle::TimeOfDay> measured_at,
                      const vehicle::Now& arrival) const;
+  /// The event, if it was not too old at `now`.
   template <class Event>
-  const Event* fresh(const std::optional<Latest<Event>>& latest, const vehicle::Now& now) const;
+  const Event* fresh(const std::optional<Latest<Event>>& latest, const vehicle::Now& now) const {
+    if (!latest || now.steady - latest->arrival.steady > parameters_.max_data_age) return nullptr;
+    return &latest->event;
+  }
+
   double positionVariance(const vehicle::Navigation& navigation) const;
+  bool headingsAreTrue() const;
   std::optional<double> trueHeading_deg(const vehicle::Navigation& navigation) const;
 
   /// Empty without a heading, or without the convergence that a grid heading needs.

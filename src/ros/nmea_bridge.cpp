@@ -23,6 +23,18 @@ vehicle::Now readClocks() {
 session::NmeaOptions sessionOptions(const Parameters& parameters) {
   session::NmeaOptions options = parameters.session;
   options.listen_only = parameters.source == Source::Topic;
+  options.command_timeout = parameters.command_timeout;
+  options.command_rate_hz = parameters.command_rate_hz;
+  options.format.thrust_decimals = parameters.thrust_decimals;
+  options.format.yaw_rate_in_degrees = parameters.yaw_rate_unit == YawRateUnit::Deg;
+  for (const SpeedPoint& point : parameters.speed_table) {
+    options.format.speed_table.push_back({point.speed_m_s, point.rpm});
+  }
+  options.format.fill_behavior_fields = parameters.fill_behavior_fields;
+  options.ack_timeout = parameters.ack_timeout;
+  options.effect_timeout = parameters.effect_timeout;
+  options.max_data_age = parameters.max_data_age;
+  options.status_rate_hz = parameters.status_rate_hz;
   return options;
 }
 
@@ -48,11 +60,27 @@ NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::
     replay_ = std::make_unique<Replay>(node, session_, listener);
   } else {
     driver_ = std::make_unique<driver::Driver>(parameters.link, session_, listener, readClocks);
-    driver_->start();
   }
+  const auto post_task = [this](SessionTask task) { post(std::move(task)); };
+  input_ = std::make_unique<CommandInput>(node, name_, parameters, session_, publisher_, post_task);
+  services_ = std::make_unique<CommandServices>(node, parameters, session_, publisher_, post_task);
+  if (driver_) driver_->start();
 }
 
-NmeaBridge::~NmeaBridge() = default;
+// Tasks refer to the input and the services, so these stay until no task can run any more.
+NmeaBridge::~NmeaBridge() {
+  services_->close();
+  input_->close();
+  if (driver_) driver_->stop();
+  if (replay_) replay_->close();
+}
+
+void NmeaBridge::post(SessionTask task) {
+  if (replay_) return replay_->post(task);
+  driver_->post([this, task = std::move(task)](const vehicle::Now& now) {
+    task(now, driver_->output());
+  });
+}
 
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
   ROS_INFO("%s: connected to %s", name_.c_str(), endpoint.c_str());

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "command_input.h"
+#include "command_services.h"
 #include "diagnostics.h"
 #include "frontseat_driver/driver/driver.h"
 #include "frontseat_driver/session/nmea_session.h"
@@ -21,8 +23,8 @@ namespace frontseat_driver::ros_layer {
 /// One NMEA vehicle on ROS: a session with the vehicle, run by a driver or by a record, and the
 /// topics it feeds. Logs what changes.
 ///
-/// Everything but the construction and the destruction happens on one thread: the driver's, or the
-/// one that calls the record's subscriber.
+/// Everything but the construction and the destruction happens on one thread at a time: the driver's,
+/// or with a record whichever holds its lock.
 class NmeaBridge : private driver::Listener {
  public:
   /// Connects, or begins to listen to the record. `name` stands before every log line.
@@ -42,6 +44,7 @@ class NmeaBridge : private driver::Listener {
   void onEvent(const vehicle::Now& now, const vehicle::Event& event) override;
   void onTick(const vehicle::Now& now) override;
 
+  void post(SessionTask task);
   void followDialect();
   void watch(const vehicle::Now& now, const vehicle::Event& event);
   void warnOfJumps(const vehicle::Now& now);
@@ -66,9 +69,10 @@ class NmeaBridge : private driver::Listener {
   std::uint64_t jumps_warned_ = 0;
   vehicle::SteadyTime next_jump_warning_{};
 
-  // Last, so that they go first: they call into everything above.
-  std::unique_ptr<driver::Driver> driver_;
+  std::unique_ptr<driver::Driver> driver_;  ///< one of the two
   std::unique_ptr<Replay> replay_;
+  std::unique_ptr<CommandInput> input_;
+  std::unique_ptr<CommandServices> services_;
 };
 
 }  // namespace frontseat_driver::ros_layer

@@ -27,7 +27,15 @@ Replay::Replay(ros::NodeHandle node, session::Session& session, driver::Listener
       subscriber_(node.subscribe(topics::kNmeaReplay, kQueue, &Replay::take, this,
                                  ros::TransportHints().tcpNoDelay())) {}
 
+void Replay::post(const std::function<void(const vehicle::Now&, session::Output&)>& task) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const vehicle::Now now = last_.value_or(vehicle::Now{});
+  task(now, *this);
+  session_.step(now, *this);
+}
+
 void Replay::take(const Sentence& sentence) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   const vehicle::Now now = recordedTime(sentence);
   if (!last_) begin(now);
   if (now.stamp < last_->stamp - kRestart) {

@@ -4,6 +4,8 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
+#include <functional>
+#include <mutex>
 #include <optional>
 
 #include "frontseat_driver/driver/driver.h"
@@ -18,6 +20,12 @@ class Replay : private session::Output {
   /// Session and listener must outlive this.
   Replay(ros::NodeHandle node, session::Session& session, driver::Listener& listener);
 
+  /// Runs a task on the session at the record's time, here and now.
+  void post(const std::function<void(const vehicle::Now& now, session::Output& out)>& task);
+
+  /// Hears nothing more.
+  void close() { subscriber_.shutdown(); }
+
  private:
   void take(const Sentence& sentence);
   void begin(const vehicle::Now& now);
@@ -28,6 +36,7 @@ class Replay : private session::Output {
   void event(const vehicle::Now& now, const vehicle::Event& event) override;
   void confirmed() override {}
 
+  std::mutex mutex_;  ///< of everything below: services come on threads of their own
   session::Session& session_;
   driver::Listener& listener_;
   std::optional<vehicle::Now> last_;

@@ -25,4 +25,21 @@ constexpr char kNmeaReceived[] = "nmea/rx";
 constexpr char kNmeaSent[] = "nmea/tx";
 constexpr char kNmeaReplay[] = "nmea/replay";
 
+// Commands.
+constexpr char kCmdBehavior[] = "cmd_behavior";
+constexpr char kCmdDrive[] = "cmd_drive";
+constexpr char kCmdHelm[] = "cmd_helm";
+constexpr char kCmdCourse[] = "cmd_course";
+constexpr char kCmdVel[] = "cmd_vel";
+constexpr char kPayloadStatus[] = "payload_status";
+
+// Services.
+constexpr char kAbort[] = "abort";
+constexpr char kModifyBehavior[] = "modify_behavior";
+constexpr char kSetLogging[] = "set_logging";
+constexpr char kSetDatum[] = "set_datum";
+constexpr char kEnableCommands[] = "enable_commands";
+constexpr char kStop[] = "stop";
+constexpr char kSendSentence[] = "send_sentence";
+
 }  // namespace frontseat_driver::ros_layer::topics

@@ -22,6 +22,8 @@ class VehiclePublisher {
 
   void setDialect(protocol::Dialect dialect) { builder_.setDialect(dialect); }
 
+  void setDatum(const vehicle::Position& datum) { builder_.setDatum(datum); }
+
   /// Time starts again, as in a replay that is repeated.
   void reset() { builder_.reset(); }
 

@@ -97,8 +97,8 @@ class NmeaSession : public Session {
   /// What BPSTS says from now on, at once and at status_rate. Returns why it was refused, or nothing.
   std::string setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status);
 
-  /// Counts a command that was refused before it got here.
-  void countRefusedCommand() { ++counters_.refused_commands; }
+  /// Counts commands that were refused before they got here.
+  void countRefusedCommands(std::uint64_t count) { counters_.refused_commands += count; }
 
   /// As given or as heard on this connection; empty while not known.
   std::optional<protocol::Dialect> dialect() const { return dialect_; }

@@ -1,0 +1,172 @@
+#include "command_convert.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "convert.h"
+
+namespace frontseat_driver::ros_layer {
+
+namespace {
+
+using vehicle::BehaviorCommand;
+
+constexpr double kRightAngle = M_PI_2;
+constexpr double kMostDepth_m = 6000.0;
+constexpr double kMostRpm = 10000.0;
+constexpr double kMostSpeed_m_s = 10.0;
+constexpr double kMostYawRate_rad_s = M_PI;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / M_PI; }
+
+double headingFromYaw_deg(double yaw_rad) { return wrapHeading_deg(90.0 - degrees(yaw_rad)); }
+
+/// Collects the first thing that is wrong with a command.
+class Check {
+ public:
+  void within(const char* field, double value, double low, double high) {
+    if (value >= low && value <= high) return;  // false for NaN
+    char text[160];
+    std::snprintf(text, sizeof text, "%s is %g; %g..%g is accepted", field, value, low, high);
+    refuse(text);
+  }
+
+  void finite(const char* field, double value) {
+    if (std::isfinite(value)) return;
+    refuse(std::string{field} + " is " + std::to_string(value) + "; a finite number is accepted");
+  }
+
+  void refuse(std::string text) {
+    if (refusal_.empty()) refusal_ = std::move(text);
+  }
+
+  Converted result(vehicle::Command command) const {
+    if (refusal_.empty()) return command;
+    return refusal_;
+  }
+
+ private:
+  std::string refusal_;
+};
+
+void convertHorizontal(const Behavior& behavior, NorthOffset north_offset_deg,
+                       BehaviorCommand& command, Check& check) {
+  switch (behavior.horizontal_mode) {
+    case Behavior::HORIZONTAL_NONE:
+      return;
+    case Behavior::HORIZONTAL_HEADING:
+      check.finite("horizontal", behavior.horizontal);
+      if (!north_offset_deg) {
+        return check.refuse(
+            "horizontal is a heading, and no position of the vehicle is known yet to tell how its "
+            "grid north lies");
+      }
+      command.horizontal = {
+          BehaviorCommand::Horizontal::Heading,
+          wrapHeading_deg(headingFromYaw_deg(behavior.horizontal) - *north_offset_deg)};
+      return;
+    case Behavior::HORIZONTAL_RUDDER:
+      check.within("horizontal", behavior.horizontal, -kRightAngle, kRightAngle);
+      command.horizontal = {BehaviorCommand::Horizontal::Rudder, degrees(behavior.horizontal)};
+      return;
+    default:
+      check.refuse("horizontal_mode is " + std::to_string(behavior.horizontal_mode) +
+                   "; 0 (none), 1 (heading) or 2 (rudder) is accepted");
+  }
+}
+
+void convertVertical(const Behavior& behavior, BehaviorCommand& command, Check& check) {
+  const double value = behavior.vertical;
+  switch (behavior.vertical_mode) {
+    case Behavior::VERTICAL_NONE:
+      return;
+    case Behavior::VERTICAL_DEPTH:
+      check.within("vertical", value, 0.0, kMostDepth_m);
+      command.vertical = {BehaviorCommand::Vertical::Depth, value};
+      return;
+    case Behavior::VERTICAL_ALTITUDE:
+      check.within("vertical", value, 0.0, kMostDepth_m);
+      command.vertical = {BehaviorCommand::Vertical::Altitude, value};
+      return;
+    case Behavior::VERTICAL_PITCH:
+      check.within("vertical", value, -kRightAngle, kRightAngle);
+      command.vertical = {BehaviorCommand::Vertical::Pitch, degrees(value)};
+      return;
+    case Behavior::VERTICAL_ELEVATOR:
+      check.within("vertical", value, -kRightAngle, kRightAngle);
+      command.vertical = {BehaviorCommand::Vertical::Elevator, degrees(value)};
+      return;
+    default:
+      check.refuse("vertical_mode is " + std::to_string(behavior.vertical_mode) +
+                   "; 0 (none), 1 (depth), 2 (altitude), 3 (pitch) or 4 (elevator) is accepted");
+  }
+}
+
+void convertSpeed(const Behavior& behavior, BehaviorCommand& command, Check& check) {
+  switch (behavior.speed_mode) {
+    case Behavior::SPEED_NONE:
+      return;
+    case Behavior::SPEED_RPM:
+      check.within("speed", behavior.speed, -kMostRpm, kMostRpm);
+      command.speed = {BehaviorCommand::Speed::Rpm, behavior.speed};
+      return;
+    case Behavior::SPEED_SPEED:
+      check.within("speed", behavior.speed, 0.0, kMostSpeed_m_s);
+      command.speed = {BehaviorCommand::Speed::MetresPerSecond, behavior.speed};
+      return;
+    default:
+      check.refuse("speed_mode is " + std::to_string(behavior.speed_mode) +
+                   "; 0 (none), 1 (rpm) or 2 (speed) is accepted");
+  }
+}
+
+}  // namespace
+
+Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg) {
+  BehaviorCommand command;
+  Check check;
+  convertHorizontal(behavior, north_offset_deg, command, check);
+  convertVertical(behavior, command, check);
+  convertSpeed(behavior, command, check);
+  return check.result(command);
+}
+
+Converted toCommand(const Drive& drive) {
+  Check check;
+  check.within("left", drive.left, -1.0, 1.0);
+  check.within("right", drive.right, -1.0, 1.0);
+  return check.result(vehicle::DriveCommand{drive.left, drive.right});
+}
+
+Converted toCommand(const Helm& helm) {
+  Check check;
+  check.within("thrust", helm.thrust, -1.0, 1.0);
+  check.within("yaw_rate", helm.yaw_rate, -kMostYawRate_rad_s, kMostYawRate_rad_s);
+  return check.result(vehicle::HelmCommand{helm.thrust, 0.0 - helm.yaw_rate});
+}
+
+Converted toCommand(const Course& course) {
+  Check check;
+  check.finite("yaw", course.yaw);
+  check.within("speed", course.speed, 0.0, kMostSpeed_m_s);
+  return check.result(vehicle::CourseCommand{headingFromYaw_deg(course.yaw), course.speed});
+}
+
+Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
+                    double max_yaw_rate_rad_s) {
+  Check check;
+  check.finite("linear.x", velocity.linear.x);
+  check.finite("linear.y", velocity.linear.y);
+  check.finite("linear.z", velocity.linear.z);
+  check.finite("angular.x", velocity.angular.x);
+  check.finite("angular.y", velocity.angular.y);
+  check.finite("angular.z", velocity.angular.z);
+  const double thrust = std::clamp(velocity.linear.x / max_speed_m_s, -1.0, 1.0);
+  const double yaw_rate =
+      std::clamp(velocity.angular.z, -max_yaw_rate_rad_s, max_yaw_rate_rad_s);
+  return check.result(vehicle::HelmCommand{thrust, 0.0 - yaw_rate});
+}
+
+}  // namespace frontseat_driver::ros_layer

@@ -1,0 +1,165 @@
+#include "command_input.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "convert.h"
+#include "topics.h"
+
+namespace frontseat_driver::ros_layer {
+
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr std::uint32_t kNewestOnly = 1;
+constexpr auto kWarnAtMostEvery = 5s;
+
+// How long a message waited in this process, other nodelets' callbacks before it.
+std::chrono::nanoseconds waited(const ros::Time& receipt) {
+  const ros::Duration waited = ros::Time::now() - receipt;
+  return std::max<std::chrono::nanoseconds>(0ns, std::chrono::nanoseconds{waited.toNSec()});
+}
+
+}  // namespace
+
+CommandInput::CommandInput(ros::NodeHandle node, std::string name, const Parameters& parameters,
+                           session::NmeaSession& session, const VehiclePublisher& publisher,
+                           PostTask post)
+    : name_(std::move(name)),
+      parameters_(parameters),
+      session_(session),
+      publisher_(publisher),
+      post_(std::move(post)) {
+  subscribers_ = {
+      subscribe(node, topics::kCmdBehavior, &CommandInput::takeBehavior),
+      subscribe(node, topics::kCmdDrive, &CommandInput::takeDrive),
+      subscribe(node, topics::kCmdHelm, &CommandInput::takeHelm),
+      subscribe(node, topics::kCmdCourse, &CommandInput::takeCourse),
+      subscribe(node, topics::kCmdVel, &CommandInput::takeVelocity),
+      subscribe(node, topics::kPayloadStatus, &CommandInput::takePayloadStatus),
+  };
+}
+
+// Without tcpNoDelay small messages wait up to 40 ms for each other.
+template <class Message>
+ros::Subscriber CommandInput::subscribe(
+    ros::NodeHandle& node, const char* topic,
+    void (CommandInput::*take)(const ros::MessageEvent<const Message>&)) {
+  ros::SubscribeOptions options;
+  options.template initByFullCallbackType<const ros::MessageEvent<const Message>&>(
+      topic, kNewestOnly,
+      [this, take](const ros::MessageEvent<const Message>& event) { (this->*take)(event); });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+// A heading is turned on the session's thread, where the newest position is.
+void CommandInput::takeBehavior(const ros::MessageEvent<const Behavior>& event) {
+  const auto behavior = event.getMessage();
+  const std::string too_old = tooOld(*behavior);
+  if (!too_old.empty()) return refuse(topics::kCmdBehavior, too_old);
+  const Converted anywhere = toCommand(*behavior, 0.0);
+  if (const auto* refusal = std::get_if<std::string>(&anywhere)) {
+    return refuse(topics::kCmdBehavior, *refusal);
+  }
+  command(topics::kCmdBehavior, event.getReceiptTime(), [this, behavior] {
+    return toCommand(*behavior, publisher_.builder().northOffset_deg());
+  });
+}
+
+void CommandInput::takeDrive(const ros::MessageEvent<const Drive>& event) {
+  takeConverted(topics::kCmdDrive, event.getReceiptTime(), toCommand(*event.getMessage()));
+}
+
+void CommandInput::takeHelm(const ros::MessageEvent<const Helm>& event) {
+  takeConverted(topics::kCmdHelm, event.getReceiptTime(), toCommand(*event.getMessage()));
+}
+
+void CommandInput::takeCourse(const ros::MessageEvent<const Course>& event) {
+  takeConverted(topics::kCmdCourse, event.getReceiptTime(), toCommand(*event.getMessage()));
+}
+
+void CommandInput::takeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event) {
+  takeConverted(topics::kCmdVel, event.getReceiptTime(),
+                toCommand(*event.getMessage(), parameters_.max_speed_m_s,
+                          parameters_.max_yaw_rate_rad_s));
+}
+
+void CommandInput::takeConverted(const char* topic, const ros::Time& receipt,
+                                 const Converted& converted) {
+  if (const auto* refusal = std::get_if<std::string>(&converted)) return refuse(topic, *refusal);
+  command(topic, receipt, [converted] { return converted; });
+}
+
+void CommandInput::takePayloadStatus(const ros::MessageEvent<const PayloadStatus>& event) {
+  post(payload_status_,
+       [this, status = event.getMessage()](const vehicle::Now& now, session::Output&) {
+         const auto refusal = session_.setPayloadStatus(now, {status->ok != 0, status->message});
+         if (!refusal.empty()) warn(topics::kPayloadStatus, refusal, now);
+       });
+}
+
+void CommandInput::command(const char* topic, const ros::Time& receipt, Convert convert) {
+  const auto received = std::chrono::steady_clock::now() - waited(receipt);
+  post(motion_, [this, topic, received, convert = std::move(convert)](const vehicle::Now& now,
+                                                                      session::Output& out) {
+    const Converted converted = convert();
+    if (const auto* refusal = std::get_if<std::string>(&converted)) {
+      session_.countRefusedCommands(1);
+      return warn(topic, *refusal, now);
+    }
+    const auto& wanted = std::get<vehicle::Command>(converted);
+    const std::string refusal = session_.command(now, wanted, received, out);
+    if (!refusal.empty()) warn(topic, refusal, now);
+  });
+}
+
+void CommandInput::refuse(const char* topic, std::string refusal) {
+  ++refusals_;
+  post(refused_, [this, topic, refusal = std::move(refusal)](const vehicle::Now& now,
+                                                             session::Output&) {
+    session_.countRefusedCommands(refusals_.exchange(0));
+    warn(topic, refusal, now);
+  });
+}
+
+std::string CommandInput::tooOld(const Behavior& behavior) const {
+  if (behavior.header.stamp.isZero()) return {};
+  const double age_s = (ros::Time::now() - behavior.header.stamp).toSec();
+  const double limit_s = std::chrono::duration<double>(parameters_.max_command_age).count();
+  if (age_s <= limit_s) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "header.stamp is %.3f s old; at most %.3f s (max_command_age) is accepted", age_s,
+                limit_s);
+  return text;
+}
+
+void CommandInput::warn(const char* topic, const std::string& refusal, const vehicle::Now& now) {
+  if (now.steady < next_warning_) return;
+  next_warning_ = now.steady + kWarnAtMostEvery;
+  ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
+}
+
+void CommandInput::post(Mailbox& mailbox, SessionTask task) {
+  if (!mailbox.put(std::move(task))) return;
+  post_([&mailbox](const vehicle::Now& now, session::Output& out) { mailbox.take()(now, out); });
+}
+
+bool CommandInput::Mailbox::put(SessionTask task) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const bool empty = !newest_;
+  newest_ = std::move(task);
+  return empty;
+}
+
+SessionTask CommandInput::Mailbox::take() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(newest_, nullptr);
+}
+
+}  // namespace frontseat_driver::ros_layer
