@@ -127,4 +127,8 @@ vehicle::UtcTime toUtcTime(const ros::Time& time) {
 
 double variance(double standard_deviation) { return standard_deviation * standard_deviation; }
 
+std::string withId(const std::string& name, const std::optional<std::int64_t>& id) {
+  return id ? name + '_' + std::to_string(*id) : name;
+}
+
 }  // namespace frontseat_driver::ros_layer

@@ -4,6 +4,10 @@
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 #include "frontseat_driver/vehicle/clock.h"
 #include "frontseat_driver/vehicle/event.h"
 #include "parameters.h"
@@ -76,5 +80,8 @@ vehicle::UtcTime toUtcTime(const ros::Time& time);
 
 /// A standard deviation as a variance.
 double variance(double standard_deviation);
+
+/// `name_id`, or `name` alone without an id.
+std::string withId(const std::string& name, const std::optional<std::int64_t>& id);
 
 }  // namespace frontseat_driver::ros_layer

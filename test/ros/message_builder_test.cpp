@@ -517,6 +517,23 @@ TEST_F(Builder, AGridHeadingIsMissingWhereTheConvergenceIsUnknown) {
   expectIdentity(imu->orientation);
 }
 
+// What a command has to be turned back by needs a position of the vehicle, not a datum somewhere.
+TEST_F(Builder, NorthOffsetIsTheConvergenceOfAPosition) {
+  Parameters parameters = parametersFor(Dialect::Sandshark);
+  parameters.datum = Position{42.36, -69.0};
+  MessageBuilder builder(parameters);
+  builder.take(navigationAt({0.0, 0.0}), at(0s));
+  EXPECT_FALSE(builder.northOffset_deg());
+  builder.take(navigationAt(kHarbor), at(1s));
+  ASSERT_TRUE(builder.northOffset_deg());
+  EXPECT_NEAR(*builder.northOffset_deg(), -1.42204476543, 1e-7);
+}
+
+TEST_F(Builder, NorthOffsetIsNoneWhereHeadingsAreTrue) {
+  ASSERT_TRUE(boat_.northOffset_deg());
+  EXPECT_EQ(*boat_.northOffset_deg(), 0.0);
+}
+
 // Fix, depth, altitude, velocity
 
 TEST_F(Builder, NavFixIsThePositionAsTold) {
