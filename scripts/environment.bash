@@ -15,6 +15,9 @@ fi
 # Nothing is written to the home folder, and no name of this host needs to resolve.
 export ROS_HOME=$build_dir/ros
 export ROS_LOG_DIR=$ROS_HOME/log
+
+# Lines of the programs come as they are said, also through a pipe.
+export ROSCONSOLE_STDOUT_LINE_BUFFERED=1
 export ROS_IP=127.0.0.1
 unset ROS_HOSTNAME
 
