@@ -13,7 +13,6 @@ constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7
                                    1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 constexpr int kMaxExactPower = 22;
 constexpr std::uint64_t kMaxExactInteger = std::uint64_t{1} << 53;
-constexpr int kMaxMantissaDigits = 19;
 constexpr int kExponentLimit = 100'000;  // far beyond any double, far from overflow
 
 const char* readExponent(const char* at, const char* end, int& exponent) {
@@ -32,12 +31,10 @@ double scaleExactly(double mantissa, int exponent) {
 }
 
 double magnitude(const Decimal& decimal) {
-  const bool exact = decimal.digit_count <= kMaxMantissaDigits &&
-                     decimal.mantissa <= kMaxExactInteger && decimal.exponent >= -kMaxExactPower &&
-                     decimal.exponent <= kMaxExactPower;
-  if (exact) return scaleExactly(static_cast<double>(decimal.mantissa), decimal.exponent);
-  const auto size = static_cast<std::size_t>(decimal.digits_end - decimal.digits);
-  return nearestDouble({decimal.digits, size}, decimal.exponent);
+  const bool exact = decimal.digit_count <= kMaxDigits && decimal.mantissa <= kMaxExactInteger &&
+                     decimal.exponent >= -kMaxExactPower && decimal.exponent <= kMaxExactPower;
+  return exact ? scaleExactly(static_cast<double>(decimal.mantissa), decimal.exponent)
+               : nearestDouble(decimal.digits, decimal.exponent);
 }
 
 bool equalsIgnoringCase(std::string_view text, std::string_view lower) {
@@ -47,12 +44,12 @@ bool equalsIgnoringCase(std::string_view text, std::string_view lower) {
 
 }  // namespace
 
-const char* readDecimal(const char* at, const char* end, Decimal& out) {
-  out.negative = at != end && *at == '-';
-  if (at != end && (*at == '-' || *at == '+')) ++at;
-  at = readDigits(at, end, out);
-  const bool has_exponent = at != nullptr && at != end && (*at == 'e' || *at == 'E');
-  return has_exponent ? readExponent(at + 1, end, out.exponent) : at;
+const char* readDecimal(const DigitText& text, const char* at, Decimal& out) {
+  const bool has_sign = at != text.end() && (*at == '-' || *at == '+');
+  out.negative = has_sign && *at == '-';
+  const char* const stop = readDigits(text, has_sign ? at + 1 : at, out);
+  const bool has_exponent = stop && stop != text.end() && (*stop == 'e' || *stop == 'E');
+  return has_exponent ? readExponent(stop + 1, text.end(), out.exponent) : stop;
 }
 
 double toDouble(const Decimal& decimal) {

@@ -14,18 +14,14 @@ std::string_view withoutBlanks(std::string_view text) {
   return text;
 }
 
-/// Two digits as a number, or -1.
-int twoDigits(const char* at) {
-  return isDigit(at[0]) && isDigit(at[1]) ? (at[0] - '0') * 10 + (at[1] - '0') : -1;
-}
-
-/// Six characters as three numbers of two digits.
-struct SixDigits {
-  int first, second, third;  ///< negative where there are no digits
+/// Six digits as three numbers of two.
+struct Pairs {
+  int first, second, third;
 };
 
-SixDigits sixDigits(const char* at) {
-  return {twoDigits(at), twoDigits(at + 2), twoDigits(at + 4)};
+Pairs pairs(std::uint64_t six_digits) {
+  const auto number = static_cast<int>(six_digits);
+  return {number / 10'000, number / 100 % 100, number % 100};
 }
 
 int daysIn(int month, int year) {
@@ -55,27 +51,26 @@ const char* readInteger(const char* at, const char* end, std::optional<std::int6
   return at;
 }
 
-/// Decimals of a second as microseconds, cut off. Returns where the digits end.
-const char* readMicroseconds(const char* at, const char* end, int& microseconds) {
-  microseconds = 0;
-  int unit = 100'000;
-  for (; at != end && isDigit(*at); ++at, unit /= 10) microseconds += (*at - '0') * unit;
-  return at;
+/// Decimals of a second as microseconds, cut off.
+std::int64_t toMicroseconds(const Digits& decimals, const char* at) {
+  std::int64_t microseconds = 0;
+  const int kept = std::min(decimals.count, 6);
+  for (int i = 0; i < 6; ++i) microseconds = microseconds * 10 + (i < kept ? at[i] - '0' : 0);
+  return microseconds;
 }
 
-/// Where the minutes begin in digits whose whole part ends at `whole_end`; nullptr if nowhere.
-const char* minutesBegin(const char* digits, const char* whole_end, DegreeSplit split,
-                         int degree_digits) {
-  const auto whole_digits = whole_end - digits;
-  if (split == DegreeSplit::FromPoint) return whole_digits < 2 ? digits : whole_end - 2;
-  return whole_digits <= degree_digits ? nullptr : digits + degree_digits;
+/// How many of the digits before the point are of the minutes; negative if that cannot be told.
+int minuteDigits(int whole_digits, DegreeSplit split, int degree_digits) {
+  if (split == DegreeSplit::FromPoint) return std::min(whole_digits, 2);
+  return whole_digits > degree_digits ? whole_digits - degree_digits : -1;
 }
 
 }  // namespace
 
 FieldReader::FieldReader(const Sentence& sentence)
-    : at_(sentence.fields.data()),
-      end_(at_ + sentence.fields.size()),
+    : fields_(sentence.fields),
+      at_(fields_.data()),
+      end_(at_ + fields_.size()),
       ended_(!sentence.has_fields) {}
 
 /// Goes to the first character of the next field that is no blank; false if there is none.
@@ -126,7 +121,7 @@ std::nullopt_t FieldReader::refuseField() {
 std::optional<double> FieldReader::number() {
   if (!begin()) return std::nullopt;
   Decimal decimal;
-  const char* const stop = readDecimal(at_, end_, decimal);
+  const char* const stop = readDecimal(DigitText{fields_}, at_, decimal);
   if (stop == nullptr || !finish(stop)) return refuseField();
   const double value = toDouble(decimal);
   if (!std::isfinite(value)) return refuse(Fault::OutOfRange);
@@ -158,13 +153,18 @@ std::optional<bool> FieldReader::either(std::string_view yes, std::string_view n
 
 std::optional<TimeOfDay> FieldReader::timeOfDay() {
   if (!begin()) return std::nullopt;
-  if (end_ - at_ < 6) return refuseField();
-  const auto [hours, minutes, seconds] = sixDigits(at_);
-  if (hours < 0 || minutes < 0 || seconds < 0) return refuseField();
+  const DigitText text{fields_};
+  const Digits digits = text.digits(at_);
+  if (digits.count != 6) return refuseField();
   const char* stop = at_ + 6;
-  int microseconds = 0;
-  if (stop != end_ && *stop == '.') stop = readMicroseconds(stop + 1, end_, microseconds);
+  std::int64_t microseconds = 0;
+  if (stop != end_ && *stop == '.') {
+    const Digits decimals = text.digits(++stop);
+    microseconds = toMicroseconds(decimals, stop);
+    stop += decimals.count;
+  }
   if (!finish(stop)) return refuseField();
+  const auto [hours, minutes, seconds] = pairs(digits.value);
   if (hours > 23 || minutes > 59 || seconds > 60) return refuse(Fault::OutOfRange);
   const std::int64_t whole_seconds = (hours * 60 + minutes) * 60 + seconds;
   return TimeOfDay{whole_seconds * 1'000'000 + microseconds};
@@ -172,9 +172,9 @@ std::optional<TimeOfDay> FieldReader::timeOfDay() {
 
 std::optional<Date> FieldReader::date() {
   if (!begin()) return std::nullopt;
-  if (end_ - at_ < 6) return refuseField();
-  const auto [day, month, short_year] = sixDigits(at_);
-  if (day < 0 || month < 0 || short_year < 0 || !finish(at_ + 6)) return refuseField();
+  const Digits digits = DigitText{fields_}.digits(at_);
+  if (digits.count != 6 || !finish(at_ + 6)) return refuseField();
+  const auto [day, month, short_year] = pairs(digits.value);
   const int year = short_year + (short_year < 80 ? 2000 : 1900);
   if (month < 1 || month > 12 || day < 1) return refuse(Fault::OutOfRange);
   if (day > daysIn(month, year)) return refuse(Fault::OutOfRange);
@@ -193,20 +193,20 @@ std::optional<LatLon> FieldReader::latLon(DegreeSplit split) {
 /// One field of degrees and minutes without a sign.
 std::optional<double> FieldReader::degrees(DegreeSplit split, int degree_digits, double limit) {
   if (!begin()) return std::nullopt;
-  Decimal whole;
-  const char* const digits = at_;
-  const char* const stop = readDigits(digits, end_, whole);
-  if (stop == nullptr || !finish(stop)) return refuseField();
-  const char* const point = std::find(digits, stop, '.');
-  const char* const cut = minutesBegin(digits, point, split, degree_digits);
-  if (cut == nullptr && toDouble(whole) == 0.0) return 0.0;  // however many zeros are left out
-  if (cut == nullptr) return refuse(Fault::BadValue);
-  double degrees = 0.0;
-  for (const char* at = digits; at != cut; ++at) degrees = degrees * 10.0 + (*at - '0');
+  const DigitText text{fields_};
+  const Digits whole = text.digits(at_);
+  const int minute_digits = minuteDigits(whole.count, split, degree_digits);
   Decimal minutes;
-  readDigits(cut, stop, minutes);
-  const double value = degrees + toDouble(minutes) / 60.0;
-  if (toDouble(minutes) > 60.0 || value > limit) return refuse(Fault::OutOfRange);
+  const char* const cut = at_ + whole.count - std::max(minute_digits, 0);
+  const char* const stop = readDigits(text, cut, minutes);
+  if (stop == nullptr || !finish(stop)) return refuseField();
+  const double minute_value = toDouble(minutes);
+  const bool zero = whole.value == 0 && minute_value == 0.0;  // however many zeros are left out
+  if (minute_digits < 0) return zero ? std::optional<double>{0.0} : refuse(Fault::BadValue);
+  if (whole.count > kMaxDigits || minute_value > 60.0) return refuse(Fault::OutOfRange);
+  const std::uint64_t whole_degrees = whole.value / kPowersOfTen[minute_digits];
+  const double value = static_cast<double>(whole_degrees) + minute_value / 60.0;
+  if (value > limit) return refuse(Fault::OutOfRange);
   return value;
 }
 

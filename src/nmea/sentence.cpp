@@ -16,9 +16,12 @@ class BodyScan {
   explicit BodyScan(std::string_view body) {
     const char* at = body.data();
     std::size_t left = body.size();
-    for (; left >= 8; at += 8, left -= 8) take(at, 8, 0);
-    // Blanks stand in for the bytes that the last word lacks; their XOR is taken out again.
-    if (left > 0) take(at, left, ' ' * kEach);
+    for (; left >= 8; at += 8, left -= 8) {
+      std::uint64_t word;
+      std::memcpy(&word, at, 8);
+      take(word);
+    }
+    takeLast({at, left});
   }
 
   std::uint8_t checksum() const {
@@ -32,14 +35,18 @@ class BodyScan {
   bool clean() const { return (flags_ & kTopBits) == 0; }
 
  private:
-  void take(const char* at, std::size_t count, std::uint64_t filler) {
-    std::uint64_t word = filler;
-    std::memcpy(&word, at, count);
-    std::uint64_t blanked = filler;
-    std::memset(&blanked, 0, count);
-    sum_ ^= word ^ blanked;
+  void take(std::uint64_t word) {
+    sum_ ^= word;
     const std::uint64_t star = word ^ ('*' * kEach);
     flags_ |= word | (word - ' ' * kEach) | ((star - kEach) & ~star);
+  }
+
+  /// Less than eight bytes: blanks, whose sum is taken out again, stand in for the others.
+  void takeLast(std::string_view bytes) {
+    std::uint64_t word = ' ' * kEach;
+    for (const char c : bytes) word = (word << 8) | static_cast<unsigned char>(c);
+    take(word);
+    sum_ ^= (' ' * kEach) << (8 * bytes.size());
   }
 
   std::uint64_t sum_ = 0;

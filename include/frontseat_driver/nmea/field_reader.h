@@ -72,7 +72,8 @@ class FieldReader {
   std::nullopt_t refuseField();
   std::optional<double> degrees(DegreeSplit split, int degree_digits, double limit);
 
-  const char* at_;
+  std::string_view fields_;  ///< all of them
+  const char* at_;           ///< where the next field begins
   const char* end_;
   bool ended_;             ///< no field left, not even an empty one
   bool optional_ = false;  ///< a field that is not there is no fault
