@@ -101,6 +101,20 @@ TEST(Connect, TimesOutWhenNobodyAnswers) {
   EXPECT_LT(Clock::now() - begin, milliseconds(1000));
 }
 
+TEST(Connect, AnAddressThatDoesNotAnswerLeavesTimeForTheNext) {
+  boost::asio::io_context io;
+  ServerLog vehicle;
+  const TcpServer server(io, "127.0.0.1", 0, vehicle);
+  const FullVehicle first("127.0.0.2", server.port());
+  ClientLog log;
+  auto options = quickOptions("second.test", server.port());
+  options.connect_timeout = milliseconds(400);
+  TcpClient client(io, options, log);
+  client.start();
+  EXPECT_TRUE(runUntil(io, [&] { return client.connected(); }));
+  EXPECT_TRUE(log.failures.empty());
+}
+
 TEST(Connect, WaitsAsLongAsItTold) {
   const ReservedPort port;
   boost::asio::io_context io;

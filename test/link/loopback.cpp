@@ -25,19 +25,19 @@ int checked(int result, const char* call) {
   return result;
 }
 
-sockaddr_in loopbackAddress(std::uint16_t port) {
+sockaddr_in toAddress(const char* text, std::uint16_t port) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  address.sin_addr.s_addr = inet_addr(text);
   return address;
 }
 
-Socket boundSocket() {
+Socket boundSocket(const char* text = "127.0.0.1", std::uint16_t port = 0) {
   Socket socket(checked(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0), "socket"));
   const int on = 1;
   setsockopt(socket.fd(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
-  const sockaddr_in address = loopbackAddress(0);
+  const sockaddr_in address = toAddress(text, port);
   checked(bind(socket.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address), "bind");
   return socket;
 }
@@ -50,8 +50,8 @@ std::uint16_t portOf(const Socket& socket) {
 }
 
 /// Whether a connection to the port is answered within a time that is ample on one host.
-bool connectsSoon(const Socket& socket, std::uint16_t port) {
-  const sockaddr_in address = loopbackAddress(port);
+bool connectsSoon(const Socket& socket, const char* text, std::uint16_t port) {
+  const sockaddr_in address = toAddress(text, port);
   if (connect(socket.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
     return true;
   }
@@ -123,11 +123,12 @@ Socket RawVehicle::accept() const {
   return Socket(checked(::accept(listener_.fd(), nullptr, nullptr), "accept"));
 }
 
-FullVehicle::FullVehicle() : listener_(boundSocket()), port_(portOf(listener_)) {
+FullVehicle::FullVehicle(const char* address, std::uint16_t port)
+    : listener_(boundSocket(address, port)), port_(portOf(listener_)) {
   checked(listen(listener_.fd(), 0), "listen");
   do {
     waiting_.emplace_back(checked(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0), "socket"));
-  } while (connectsSoon(waiting_.back(), port_));
+  } while (connectsSoon(waiting_.back(), address, port_));
 }
 
 Received readToEnd(const Socket& socket) {

@@ -72,10 +72,10 @@ class RawVehicle {
   std::uint16_t port_ = 0;
 };
 
-/// A port of 127.0.0.1 whose queue of connections is full: a further one gets no answer.
+/// A port whose queue of connections is full: a further one gets no answer.
 class FullVehicle {
  public:
-  FullVehicle();
+  explicit FullVehicle(const char* address = "127.0.0.1", std::uint16_t port = 0);
   std::uint16_t port() const { return port_; }
 
  private:

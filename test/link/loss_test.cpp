@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
-#include <sys/socket.h>
 
-#include <algorithm>
-#include <boost/asio/post.hpp>
 #include <cerrno>
 #include <string>
-#include <thread>
 
 #include "frontseat_driver/link/tcp_client.h"
 #include "frontseat_driver/link/tcp_server.h"
@@ -171,41 +167,6 @@ TEST(Loss, MayBeClosedFromInsideIt) {
   io.restart();
   io.run();  // ends, since nothing is left to do
   EXPECT_EQ(log.losses.size(), 1U);
-}
-
-/// A vehicle with Nagle's algorithm on sends each bundle in two writes and waits for an answer.
-milliseconds medianAnswer(const Socket& socket) {
-  std::vector<milliseconds> answers;
-  for (int i = 0; i < 15; ++i) {
-    const auto begin = Clock::now();
-    char answer = 0;
-    EXPECT_EQ(send(socket.fd(), "1", 1, MSG_NOSIGNAL), 1);
-    EXPECT_EQ(send(socket.fd(), "2", 1, MSG_NOSIGNAL), 1);
-    EXPECT_EQ(recv(socket.fd(), &answer, 1, MSG_WAITALL), 1);
-    answers.push_back(std::chrono::duration_cast<milliseconds>(Clock::now() - begin));
-  }
-  std::sort(answers.begin(), answers.end());
-  return answers[answers.size() / 2];
-}
-
-TEST(Latency, NoDelayedAcknowledgementHoldsUpTheSecondHalfOfABundle) {
-  const RawVehicle vehicle;
-  boost::asio::io_context io;
-  ClientLog log;
-  TcpClient client(io, quickOptions("127.0.0.1", vehicle.port()), log);
-  log.on_bytes = [&] {
-    if (log.received.back() == '2') client.write("a");
-  };
-  client.start();
-  bool done = false;
-  milliseconds answer{};
-  std::thread other([&] {
-    answer = medianAnswer(vehicle.accept());
-    boost::asio::post(io, [&] { done = true; });
-  });
-  EXPECT_TRUE(runUntil(io, [&] { return done; }));
-  other.join();
-  EXPECT_LT(answer, milliseconds(20));
 }
 
 }  // namespace
