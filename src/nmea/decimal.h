@@ -132,11 +132,37 @@ inline const char* readDigits(const DigitText& text, const char* at, Decimal& ou
   return out.digit_count == 0 ? nullptr : stop;
 }
 
+/// Adds the exponent at `at`, which follows the `e`, to that of `out`. Returns where it stopped,
+/// nullptr if there is none.
+const char* readExponent(const char* at, const char* end, Decimal& out);
+
 /// As readDigits(), with an optional sign before and an optional exponent after.
-const char* readDecimal(const DigitText& text, const char* at, Decimal& out);
+inline const char* readDecimal(const DigitText& text, const char* at, Decimal& out) {
+  const char first = at == text.end() ? '\0' : *at;
+  out.negative = first == '-';
+  // Not a branch: half of the signs would be guessed wrong.
+  const int sign_length = static_cast<int>(out.negative) | static_cast<int>(first == '+');
+  const char* const stop = readDigits(text, at + sign_length, out);
+  const bool has_exponent = stop != nullptr && stop != text.end() && (*stop | 0x20) == 'e';
+  return has_exponent ? readExponent(stop + 1, text.end(), out) : stop;
+}
+
+/// As toDouble(), for any number of digits and any exponent; slow.
+double toDoubleExactly(const Decimal& decimal);
 
 /// The nearest double, ties to even, as strtod gives in the C locale; infinite if there is none.
-double toDouble(const Decimal& decimal);
+inline double toDouble(const Decimal& decimal) {
+  // A mantissa of 53 bits and these powers are exact as doubles: only the division rounds.
+  constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  constexpr double kSigns[] = {1.0, -1.0};
+  const bool quick = decimal.digit_count <= kMaxDigits && decimal.mantissa >> 53 == 0 &&
+                     decimal.exponent <= 0 && decimal.exponent >= -22;
+  if (!quick) return toDoubleExactly(decimal);
+  const auto mantissa = static_cast<double>(static_cast<std::int64_t>(decimal.mantissa));
+  return mantissa / kExactPowers[-decimal.exponent] * kSigns[decimal.negative ? 1 : 0];
+}
 
 /// True for `nan` and `inf` or `infinity` with or without sign, of any case.
 bool isNotFinite(std::string_view text);

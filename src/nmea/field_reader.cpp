@@ -52,11 +52,9 @@ const char* readInteger(const char* at, const char* end, std::optional<std::int6
 }
 
 /// Decimals of a second as microseconds, cut off.
-std::int64_t toMicroseconds(const Digits& decimals, const char* at) {
-  std::int64_t microseconds = 0;
-  const int kept = std::min(decimals.count, 6);
-  for (int i = 0; i < 6; ++i) microseconds = microseconds * 10 + (i < kept ? at[i] - '0' : 0);
-  return microseconds;
+std::uint64_t toMicroseconds(const char* at, const Digits& decimals) {
+  if (decimals.count <= 6) return decimals.value * kPowersOfTen[6 - decimals.count];
+  return DigitText{{at, 6}}.digits(at).value;
 }
 
 /// How many of the digits before the point are of the minutes; negative if that cannot be told.
@@ -73,8 +71,17 @@ FieldReader::FieldReader(const Sentence& sentence)
       end_(at_ + fields_.size()),
       ended_(!sentence.has_fields) {}
 
+/// Takes the field that was read up to `at` if nothing but blanks is left of it.
+inline bool FieldReader::finish(const char* at) {
+  while (at != end_ && *at == ' ') ++at;
+  if (at != end_ && *at != ',') return false;
+  ended_ = at == end_;
+  at_ = ended_ ? at : at + 1;
+  return true;
+}
+
 /// Goes to the first character of the next field that is no blank; false if there is none.
-bool FieldReader::begin() {
+inline bool FieldReader::begin() {
   ++field_;
   if (ended_) {
     if (!optional_) note(Fault::MissingField);
@@ -84,15 +91,6 @@ bool FieldReader::begin() {
   const bool blank = at_ == end_ || *at_ == ',';
   if (blank) finish(at_);
   return !blank;
-}
-
-/// Takes the field that was read up to `at` if nothing but blanks is left of it.
-bool FieldReader::finish(const char* at) {
-  while (at != end_ && *at == ' ') ++at;
-  if (at != end_ && *at != ',') return false;
-  ended_ = at == end_;
-  at_ = ended_ ? at : at + 1;
-  return true;
 }
 
 /// Takes the field whatever it holds.
@@ -157,17 +155,17 @@ std::optional<TimeOfDay> FieldReader::timeOfDay() {
   const Digits digits = text.digits(at_);
   if (digits.count != 6) return refuseField();
   const char* stop = at_ + 6;
-  std::int64_t microseconds = 0;
+  std::uint64_t microseconds = 0;
   if (stop != end_ && *stop == '.') {
     const Digits decimals = text.digits(++stop);
-    microseconds = toMicroseconds(decimals, stop);
+    microseconds = toMicroseconds(stop, decimals);
     stop += decimals.count;
   }
   if (!finish(stop)) return refuseField();
   const auto [hours, minutes, seconds] = pairs(digits.value);
   if (hours > 23 || minutes > 59 || seconds > 60) return refuse(Fault::OutOfRange);
   const std::int64_t whole_seconds = (hours * 60 + minutes) * 60 + seconds;
-  return TimeOfDay{whole_seconds * 1'000'000 + microseconds};
+  return TimeOfDay{whole_seconds * 1'000'000 + static_cast<std::int64_t>(microseconds)};
 }
 
 std::optional<Date> FieldReader::date() {

@@ -126,9 +126,9 @@ nmea::Decoded<Reading> decode(const nmea::Sentence& sentence) {
   const Decode decode = decoderOf(sentence.address);
   if (decode == nullptr) return nmea::Fault::UnknownType;
   FieldReader in{sentence};
-  Reading reading;
-  decode(in, reading.message);
-  reading.faults = in.faults();
+  nmea::Decoded<Reading> reading{std::in_place};
+  decode(in, reading->message);
+  reading->faults = in.faults();
   return reading;
 }
 

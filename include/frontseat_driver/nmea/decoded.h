@@ -31,12 +31,15 @@ template <class T>
 class [[nodiscard]] Decoded {
  public:
   Decoded(T value) : state_(std::in_place_index<0>, std::move(value)) {}
+  explicit Decoded(std::in_place_t) : state_(std::in_place_index<0>) {}  ///< to be filled in place
   Decoded(Failure failure) : state_(std::in_place_index<1>, failure) {}
   Decoded(Fault fault) : state_(std::in_place_index<1>, Failure{fault}) {}
 
   explicit operator bool() const { return state_.index() == 0; }
   const T& operator*() const { return *std::get_if<0>(&state_); }
+  T& operator*() { return *std::get_if<0>(&state_); }
   const T* operator->() const { return std::get_if<0>(&state_); }
+  T* operator->() { return std::get_if<0>(&state_); }
   Failure failure() const { return *std::get_if<1>(&state_); }
 
  private:
