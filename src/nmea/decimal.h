@@ -153,10 +153,10 @@ double toDoubleExactly(const Decimal& decimal);
 /// The nearest double, ties to even, as strtod gives in the C locale; infinite if there is none.
 inline double toDouble(const Decimal& decimal) {
   // A mantissa of 53 bits and these powers are exact as doubles: only the division rounds.
-  constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                     1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                     1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  constexpr double kSigns[] = {1.0, -1.0};
+  static constexpr double kExactPowers[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                            1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
+                                            1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+  static constexpr double kSigns[] = {1.0, -1.0};
   const bool quick = decimal.digit_count <= kMaxDigits && decimal.mantissa >> 53 == 0 &&
                      decimal.exponent <= 0 && decimal.exponent >= -22;
   if (!quick) return toDoubleExactly(decimal);

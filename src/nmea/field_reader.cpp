@@ -25,7 +25,7 @@ Pairs pairs(std::uint64_t six_digits) {
 }
 
 int daysIn(int month, int year) {
-  constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
+  static constexpr int kDays[] = {31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31};
   // Without the rule for centuries: two-digit years meet none but 2000, which is a leap year.
   const bool leap_day = month == 2 && year % 4 == 0;
   return kDays[month - 1] + (leap_day ? 1 : 0);

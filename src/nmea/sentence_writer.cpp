@@ -174,7 +174,7 @@ void SentenceWriter::blank() { put(','); }
 std::optional<std::string_view> SentenceWriter::finish() {
   if (state_ == State::Invalid) return std::nullopt;
   if (state_ == State::Open) {
-    constexpr char kHex[] = "0123456789ABCDEF";
+    static constexpr char kHex[] = "0123456789ABCDEF";
     const std::uint8_t sum = checksum({&buffer_[1], size_ - 1});
     for (const char c : {'*', kHex[sum >> 4], kHex[sum & 15], '\r', '\n'}) buffer_[size_++] = c;
     state_ = State::Finished;
