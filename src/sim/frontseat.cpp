@@ -46,8 +46,10 @@ double overGround(const VehicleState& state) {
   return std::hypot(state.velocity_east_m_s, state.velocity_north_m_s);
 }
 
-nmea::LatLon throughFloat(const nmea::LatLon& position) {
-  return {static_cast<float>(position.latitude_deg), static_cast<float>(position.longitude_deg)};
+/// Volatile, because GCC 12 drops two such conversions that stand side by side.
+double throughFloat(double value) {
+  const volatile float narrow = static_cast<float>(value);
+  return static_cast<double>(narrow);
 }
 
 }  // namespace
@@ -118,7 +120,7 @@ void Frontseat::advance(Sink& sink) {
   }
   const double dt_s = inSeconds(tick_);
   control(dt_s);
-  model().step(dt_s);
+  mutableModel().step(dt_s);
   replaceEmptyBattery();
   say();
   for (Report& report : reports_) {
@@ -165,7 +167,8 @@ void Frontseat::applyQuirks(protocol::NavigationUpdate& navigation,
                             const VehicleState& state) const {
   const Quirks& quirks = config_.quirks;
   if (quirks.float32_positions && navigation.position) {
-    navigation.position = throughFloat(*navigation.position);
+    navigation.position = nmea::LatLon{throughFloat(navigation.position->latitude_deg),
+                                       throughFloat(navigation.position->longitude_deg)};
   }
   if (quirks.course_heading && overGround(state) > kCourseSpeed_m_s) {
     const double course = std::atan2(state.velocity_east_m_s, state.velocity_north_m_s);
@@ -253,7 +256,7 @@ void Frontseat::obey(Client& client, std::string_view line) {
 }
 
 void Frontseat::replaceEmptyBattery() {
-  if (config_.battery_swap && model().batteryFraction() < kSwapBelow) model().replaceBattery();
+  if (config_.battery_swap && model().batteryFraction() < kSwapBelow) mutableModel().replaceBattery();
 }
 
 UtcTime Frontseat::clock(UtcTime utc) const {

@@ -144,7 +144,7 @@ void SandsharkFrontseat::command(Client& client, const nmea::Sentence& received)
   const bool numbers_only = sentence.formatter() != "RMB" || arePlainNumbers(sentence.fields);
   const Answer answer = readable && numbers_only ? obey(client, read->message)
                                                  : Answer{Status::Invalid, "not understood"};
-  acknowledge(client, sentence.address, commandTime(sentence), answer);
+  if (!answer.silent) acknowledge(client, sentence.address, commandTime(sentence), answer);
 }
 
 SandsharkFrontseat::Answer SandsharkFrontseat::obey(Client& client,
@@ -168,7 +168,8 @@ SandsharkFrontseat::Answer SandsharkFrontseat::log(Client& client,
     nmea::SentenceWriter out = protocol::write(missionStatus(status));
     if (const auto text = out.finish()) queue(client, *text);
   }
-  return {Status::Done, *request.on ? "logging on" : "logging off"};
+  const bool silent = request.sentence == "ACK" && !config().quirks.ack_log_ack;
+  return {Status::Done, *request.on ? "logging on" : "logging off", silent};
 }
 
 SandsharkFrontseat::Answer SandsharkFrontseat::change(const BehaviorChange& wanted) {

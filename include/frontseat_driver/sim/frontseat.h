@@ -92,7 +92,7 @@ class Frontseat {
   Frontseat(const FrontseatConfig& config, protocol::Dialect dialect,
             std::chrono::seconds clock_ahead_of_utc);
 
-  virtual VehicleModel& model() = 0;
+  virtual VehicleModel& mutableModel() = 0;
   virtual void welcome(Client& client) = 0;
   virtual void command(Client& client, const nmea::Sentence& sentence) = 0;
   virtual void control(double dt_s) = 0;  ///< sets the actuators for the next step

@@ -39,7 +39,7 @@ class KingfisherFrontseat : public Frontseat {
       std::variant<std::monostate, protocol::kingfisher::MotorThrust,
                    protocol::kingfisher::ThrustAndYawRate, protocol::kingfisher::HeadingAndSpeed>;
 
-  VehicleModel& model() override { return catamaran_; }
+  VehicleModel& mutableModel() override { return catamaran_; }
   void welcome(Client& client) override { client.logged = kAll; }
   void command(Client& client, const nmea::Sentence& sentence) override;
   void control(double dt_s) override;

@@ -47,6 +47,7 @@ class SandsharkFrontseat : public Frontseat {
   struct Answer {
     Status status = Status::Done;
     std::string_view message;
+    bool silent = false;  ///< no answer at all, as a real vehicle's to BPLOG,ACK
   };
   struct Change {
     BehaviorChange wanted;
@@ -58,7 +59,7 @@ class SandsharkFrontseat : public Frontseat {
     std::string sentence;
   };
 
-  VehicleModel& model() override { return torpedo_; }
+  VehicleModel& mutableModel() override { return torpedo_; }
   void welcome(Client& client) override;
   void command(Client& client, const nmea::Sentence& sentence) override;
   void control(double dt_s) override;
