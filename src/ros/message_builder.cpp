@@ -53,6 +53,19 @@ void MessageBuilder::reset() {
   velocity_.reset();
   raw_imu_.reset();
   position_accepted_ = false;
+  stamper_.reset();
+}
+
+void MessageBuilder::take(const vehicle::ClockSample& clock, const vehicle::Now& arrival) {
+  stamper_.take(clock.time, TimeScale::Vehicle, arrival);
+}
+
+void MessageBuilder::take(const vehicle::GpsFix& fix, const vehicle::Now& arrival) {
+  if (fix.measured_at) stamper_.take(*fix.measured_at, TimeScale::Utc, arrival);
+}
+
+void MessageBuilder::take(const vehicle::GpsVelocity& velocity, const vehicle::Now& arrival) {
+  if (velocity.measured_at) stamper_.take(*velocity.measured_at, TimeScale::Utc, arrival);
 }
 
 void MessageBuilder::take(const vehicle::Navigation& navigation, const vehicle::Now& arrival) {

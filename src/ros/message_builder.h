@@ -31,8 +31,8 @@ namespace frontseat_driver::ros_layer {
 /// Turns what the vehicle tells into messages. Knows no publisher: an empty result is published
 /// nowhere, and a message that nobody wants need not be asked for.
 ///
-/// Navigation, velocity and raw IMU go into more than one message: take() each of them once when it
-/// arrives, whoever listens, then ask for the messages. Not safe for concurrent use.
+/// What goes into more than one message, or tells the time: take() each of them once when it arrives,
+/// whoever listens, then ask for the messages. Not safe for concurrent use.
 class MessageBuilder {
  public:
   explicit MessageBuilder(const Parameters& parameters);
@@ -57,6 +57,9 @@ class MessageBuilder {
   /// Forgets stamps and data, not the datum: for a replay that starts again, where time goes back.
   void reset();
 
+  void take(const vehicle::ClockSample& clock, const vehicle::Now& arrival);
+  void take(const vehicle::GpsFix& fix, const vehicle::Now& arrival);
+  void take(const vehicle::GpsVelocity& velocity, const vehicle::Now& arrival);
   void take(const vehicle::Navigation& navigation, const vehicle::Now& arrival);
   void take(const vehicle::Velocity& velocity, const vehicle::Now& arrival);
   void take(const vehicle::RawImu& imu, const vehicle::Now& arrival);
@@ -115,6 +118,14 @@ class MessageBuilder {
   ShutdownNotice shutdownNotice(const vehicle::Shutdown& shutdown, const vehicle::Now& arrival);
   CommandAck commandAck(const vehicle::Acknowledgement& ack, const vehicle::Now& arrival);
 
+  /// `vehicle_time`: the vehicle's own clock, as it stands in the sentence, against arrival on the
+  /// ROS clock.
+  sensor_msgs::TimeReference vehicleTime(const vehicle::ClockSample& clock,
+                                         const vehicle::Now& arrival);
+
+  /// What is known of the vehicle's clock.
+  vehicle::ClockOffset::State clock() const { return stamper_.clock(); }
+
   /// The static transforms to <base_frame>_frd and <odom_frame>_ned.
   std::array<geometry_msgs::TransformStamped, 2> helperFrames(const vehicle::Now& now) const;
 
@@ -141,6 +152,7 @@ class MessageBuilder {
     kGpsFix,
     kGpsVelocity,
     kGpsTime,
+    kVehicleTime,
     kMissionStatus,
     kControlStatus,
     kInterfaceVersion,

@@ -11,10 +11,28 @@ Stamper::Stamper(StampMode mode) : mode_(mode) {}
 
 ros::Time Stamper::stamp(std::optional<vehicle::TimeOfDay> measured_at, TimeScale scale,
                          const vehicle::Now& arrival) const {
-  if (mode_ != StampMode::Vehicle || !measured_at) return toRosTime(arrival.stamp);
+  if (mode_ == StampMode::Receive || !measured_at) return toRosTime(arrival.stamp);
+  if (mode_ == StampMode::Synced) {
+    const auto on_host = clockOf(scale).toHost(*measured_at, arrival.stamp);
+    return toRosTime(std::min(on_host.value_or(arrival.stamp), arrival.stamp));
+  }
   const std::chrono::seconds ahead =
       scale == TimeScale::Vehicle ? leap_seconds_ : std::chrono::seconds(0);
   return toRosTime(vehicle::resolveDate(*measured_at - ahead, arrival.utc));
+}
+
+void Stamper::take(vehicle::TimeOfDay sent_at, TimeScale scale, const vehicle::Now& arrival) {
+  auto& clock = scale == TimeScale::Vehicle ? vehicle_clock_ : gps_clock_;
+  clock.take(sent_at, arrival.stamp);
+}
+
+void Stamper::reset() {
+  vehicle_clock_.reset();
+  gps_clock_.reset();
+}
+
+const vehicle::ClockOffset& Stamper::clockOf(TimeScale scale) const {
+  return scale == TimeScale::Vehicle ? vehicle_clock_ : gps_clock_;
 }
 
 ros::Time Stamper::ownTime(vehicle::TimeOfDay written, const vehicle::Now& arrival) const {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "frontseat_driver/vehicle/clock.h"
+#include "frontseat_driver/vehicle/clock_offset.h"
 #include "frontseat_driver/vehicle/event.h"
 #include "parameters.h"
 
@@ -25,8 +26,17 @@ class Stamper {
   /// GPS - UTC, as far as the vehicle's clock shows it.
   void setLeapSeconds(std::chrono::seconds leap_seconds) { leap_seconds_ = leap_seconds; }
 
+  /// A sentence that was made at `sent_at` has arrived.
+  void take(vehicle::TimeOfDay sent_at, TimeScale scale, const vehicle::Now& arrival);
+
+  /// Forgets what it learned about the clocks.
+  void reset();
+
+  /// What is known of the vehicle's clock.
+  vehicle::ClockOffset::State clock() const { return vehicle_clock_.state(); }
+
   /// When data was valid that arrived at `arrival` and carries `measured_at`. Without a time of its
-  /// own, data counts as measured when it arrived.
+  /// own, data counts as measured when it arrived. Synced stamps are never later than that.
   ros::Time stamp(std::optional<vehicle::TimeOfDay> measured_at, TimeScale scale,
                   const vehicle::Now& arrival) const;
 
@@ -35,7 +45,11 @@ class Stamper {
   ros::Time ownTime(vehicle::TimeOfDay written, const vehicle::Now& arrival) const;
 
  private:
+  const vehicle::ClockOffset& clockOf(TimeScale scale) const;
+
   StampMode mode_;
+  vehicle::ClockOffset vehicle_clock_;
+  vehicle::ClockOffset gps_clock_;  ///< of a GPS receiver that the vehicle relays
   std::chrono::seconds leap_seconds_{0};
 };
 

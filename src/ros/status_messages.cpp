@@ -3,6 +3,7 @@
 #include <string>
 
 #include "convert.h"
+#include "frontseat_driver/vehicle/date_resolution.h"
 #include "message_builder.h"
 
 namespace frontseat_driver::ros_layer {
@@ -79,6 +80,15 @@ InterfaceVersion MessageBuilder::interfaceVersion(const vehicle::InterfaceVersio
   out.header = header(kInterfaceVersion, vehicleStamp(version.sent_at, arrival), kNoFrame);
   out.vehicle = std::string(version.version);
   out.payload = parameters_.session.interface_version;
+  return out;
+}
+
+sensor_msgs::TimeReference MessageBuilder::vehicleTime(const vehicle::ClockSample& clock,
+                                                       const vehicle::Now& arrival) {
+  sensor_msgs::TimeReference out;
+  out.header = header(kVehicleTime, toRosTime(arrival.stamp), kNoFrame);
+  out.time_ref = toRosTime(vehicle::resolveDate(clock.time, arrival.utc));
+  out.source = "vehicle";
   return out;
 }
 

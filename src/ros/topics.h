@@ -15,6 +15,7 @@ constexpr char kBattery[] = "battery";
 constexpr char kGpsFix[] = "gps/fix";
 constexpr char kGpsVelocity[] = "gps/velocity";
 constexpr char kGpsTimeReference[] = "gps/time_reference";
+constexpr char kVehicleTime[] = "vehicle_time";
 constexpr char kMissionStatus[] = "mission_status";
 constexpr char kControl[] = "control";
 constexpr char kInterfaceVersion[] = "interface_version";

@@ -59,6 +59,7 @@ VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const Parameters& param
       gps_fix_(node.advertise<sensor_msgs::NavSatFix>(topics::kGpsFix, kQueue)),
       gps_velocity_(node.advertise<geometry_msgs::TwistStamped>(topics::kGpsVelocity, kQueue)),
       gps_time_(node.advertise<sensor_msgs::TimeReference>(topics::kGpsTimeReference, kQueue)),
+      vehicle_time_(node.advertise<sensor_msgs::TimeReference>(topics::kVehicleTime, kQueue)),
       mission_status_(node.advertise<MissionStatus>(topics::kMissionStatus, kQueue, kLatched)),
       control_(node.advertise<ControlStatus>(topics::kControl, kQueue, kLatched)),
       interface_version_(
@@ -86,6 +87,11 @@ void VehiclePublisher::publishReceived(const vehicle::Now& now, std::string_view
 
 void VehiclePublisher::publishSent(const vehicle::Now& now, std::string_view line) const {
   publishSentence(sent_, now, line);
+}
+
+void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::ClockSample& clock) {
+  builder_.take(clock, arrival);
+  if (wanted(vehicle_time_)) publishShared(vehicle_time_, builder_.vehicleTime(clock, arrival));
 }
 
 void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Navigation& navigation) {
@@ -126,10 +132,12 @@ void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Battery&
 }
 
 void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::GpsFix& fix) {
+  builder_.take(fix, arrival);
   if (wanted(gps_fix_)) publishShared(gps_fix_, builder_.gpsFix(fix, arrival));
 }
 
 void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::GpsVelocity& velocity) {
+  builder_.take(velocity, arrival);
   if (wanted(gps_velocity_)) publishIfAny(gps_velocity_, builder_.gpsVelocity(velocity, arrival));
   if (wanted(gps_time_)) publishIfAny(gps_time_, builder_.gpsTime(velocity, arrival));
 }

@@ -35,6 +35,7 @@ class VehiclePublisher {
   const MessageBuilder& builder() const { return builder_; }
 
  private:
+  void take(const vehicle::Now& arrival, const vehicle::ClockSample& clock);
   void take(const vehicle::Now& arrival, const vehicle::Navigation& navigation);
   void take(const vehicle::Now& arrival, const vehicle::Velocity& velocity);
   void take(const vehicle::Now& arrival, const vehicle::RawImu& imu);
@@ -66,6 +67,7 @@ class VehiclePublisher {
   ros::Publisher gps_fix_;
   ros::Publisher gps_velocity_;
   ros::Publisher gps_time_;
+  ros::Publisher vehicle_time_;
   ros::Publisher mission_status_;
   ros::Publisher control_;
   ros::Publisher interface_version_;

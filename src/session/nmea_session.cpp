@@ -149,6 +149,9 @@ void NmeaSession::take(const Now& now, const nmea::Sentence& sentence, Output& o
   if (!reading) return count(reading.failure());
   ++counters_.decoded;
   counters_.bad_fields += static_cast<std::uint64_t>(reading->faults.count);
+  // A GPS receiver's sentences go by its own clock.
+  const auto sent_at = spoken ? sentAt(reading->message) : std::nullopt;
+  if (sent_at) out.event(now, vehicle::ClockSample{*sent_at});
   takeMessage(now, reading->message, out);
 }
 

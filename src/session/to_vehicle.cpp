@@ -134,6 +134,19 @@ struct ToEvent {
   }
 };
 
+using Time = std::optional<vehicle::TimeOfDay>;
+
+template <class T>
+auto sentAtOf(const T& in, int) -> decltype(Time{in.sent_at}) {
+  return in.sent_at;
+}
+
+// A sentence without a time of its own.
+template <class T>
+Time sentAtOf(const T&, long) {
+  return std::nullopt;
+}
+
 struct NamedState {
   std::string_view status;
   vehicle::MissionStatus::State state;
@@ -172,6 +185,10 @@ std::string_view afterSeparator(std::string_view text) {
 
 std::optional<Event> toVehicle(const protocol::Message& message) {
   return std::visit(ToEvent{}, message);
+}
+
+std::optional<vehicle::TimeOfDay> sentAt(const protocol::Message& message) {
+  return std::visit([](const auto& in) { return sentAtOf(in, 0); }, message);
 }
 
 vehicle::MissionStatus toVehicle(const protocol::bluefin::MissionStatus& mission) {

@@ -12,6 +12,9 @@ namespace frontseat_driver::session {
 /// Texts are views into the sentence.
 std::optional<vehicle::Event> toVehicle(const protocol::Message& message);
 
+/// The time at which the vehicle made a sentence, where it has one: not that of the data in it.
+std::optional<vehicle::TimeOfDay> sentAt(const protocol::Message& message);
+
 /// The state a BFMIS status names, the log directory that may follow "Running" taken off. SPI 0.1,
 /// section 6.3.
 vehicle::MissionStatus toVehicle(const protocol::bluefin::MissionStatus& mission);

@@ -20,6 +20,11 @@ struct Position {
   double longitude_deg = 0.0;
 };
 
+/// What the vehicle's clock showed when it made the sentence that arrived now.
+struct ClockSample {
+  TimeOfDay time{};
+};
+
 /// Where the vehicle believes it is.
 struct Navigation {
   std::optional<TimeOfDay> measured_at;
@@ -150,7 +155,8 @@ struct Shutdown {
   std::chrono::seconds notice{60};  ///< least time until then
 };
 
-using Event = std::variant<Navigation, Velocity, RawImu, Compass, Battery, GpsFix, GpsVelocity,
-                           MissionStatus, Control, Acknowledgement, InterfaceVersion, Shutdown>;
+using Event = std::variant<ClockSample, Navigation, Velocity, RawImu, Compass, Battery, GpsFix,
+                           GpsVelocity, MissionStatus, Control, Acknowledgement, InterfaceVersion,
+                           Shutdown>;
 
 }  // namespace frontseat_driver::vehicle

@@ -1,0 +1,209 @@
+#include "frontseat_driver/vehicle/clock_offset.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "frontseat_driver/vehicle/date_resolution.h"
+
+namespace frontseat_driver::vehicle {
+namespace {
+
+using namespace std::chrono_literals;
+using std::chrono::nanoseconds;
+
+// 2026-05-10 22:00:00 UTC: two hours before midnight.
+constexpr UtcTime kStart = std::chrono::seconds{1778450400};
+
+double milliseconds(nanoseconds duration) {
+  return std::chrono::duration<double, std::milli>(duration).count();
+}
+
+/// A vehicle whose clock is off and drifts, behind a network that delays in order.
+class Vehicle {
+ public:
+  explicit Vehicle(std::uint64_t seed) : random_(seed) {}
+
+  struct Sample {
+    UtcTime truth;        ///< when it was sent, on the host's clock
+    UtcTime arrival;      ///< on the host's clock
+    ClockOffset::TimeOfDay sent_at;  ///< on the vehicle's clock
+  };
+
+  Sample next(nanoseconds period) {
+    now_ += period;
+    const UtcTime vehicle = now_ + clock_error + scaledDrift();
+    last_arrival_ = std::max(last_arrival_, now_ + delay());
+    // Sentences carry whole milliseconds.
+    const auto written = std::chrono::duration_cast<std::chrono::milliseconds>(timeOfDay(vehicle));
+    return {now_, last_arrival_, written};
+  }
+
+  UtcTime now() const { return now_; }
+
+  nanoseconds clock_error = 5h + 18s;
+  double drift_ppm = 50.0;
+
+ private:
+  nanoseconds scaledDrift() const {
+    const auto elapsed = static_cast<double>((now_ - kStart).count());
+    return nanoseconds{std::llround(elapsed * drift_ppm * 1e-6)};
+  }
+
+  // Lognormal: median 5 ms, 1 % above 200 ms.
+  nanoseconds delay() {
+    constexpr double kSigma = 1.5857;  // ln(200 / 5) / 2.3263
+    const double delay_s = 0.005 * std::exp(kSigma * normal_(random_));
+    return nanoseconds{std::llround(delay_s * 1e9)};
+  }
+
+  UtcTime now_ = kStart;
+  UtcTime last_arrival_{};
+  std::mt19937_64 random_;
+  std::normal_distribution<double> normal_;
+};
+
+struct Row {
+  const char* name;
+  std::uint64_t seed;
+  nanoseconds clock_error;
+  double drift_ppm;
+};
+
+class Delayed : public testing::TestWithParam<Row> {};
+
+TEST_P(Delayed, StampsAreWithinTwoMilliseconds) {
+  Vehicle vehicle{GetParam().seed};
+  vehicle.clock_error = GetParam().clock_error;
+  vehicle.drift_ppm = GetParam().drift_ppm;
+  ClockOffset estimate;
+  std::vector<double> errors_ms;
+  UtcTime last{};
+  while (vehicle.now() < kStart + 10min) {
+    const Vehicle::Sample sample = vehicle.next(50ms);
+    estimate.take(sample.sent_at, sample.arrival);
+    const UtcTime stamp = *estimate.toHost(sample.sent_at, sample.arrival);
+    EXPECT_GE(stamp, last);
+    last = stamp;
+    if (sample.truth > kStart + 10s) {
+      errors_ms.push_back(std::abs(milliseconds(stamp - sample.truth)));
+    }
+  }
+  std::sort(errors_ms.begin(), errors_ms.end());
+  EXPECT_LT(errors_ms[errors_ms.size() * 95 / 100], 2.0);
+  EXPECT_LT(errors_ms.back(), 20.0);
+  RecordProperty("p95_us", static_cast<int>(errors_ms[errors_ms.size() * 95 / 100] * 1e3));
+  RecordProperty("max_us", static_cast<int>(errors_ms.back() * 1e3));
+  EXPECT_NEAR(estimate.state().drift_ppm, -GetParam().drift_ppm, 40.0);
+  EXPECT_EQ(estimate.state().steps, 0u);
+}
+
+const Row kRows[] = {
+    {"five_hours_ahead_50_ppm", 1, 5h + 18s, 50.0},
+    {"five_hours_ahead_minus_50_ppm", 2, 5h + 18s, -50.0},
+    {"half_a_day_behind", 3, -11h - 59min, 50.0},
+    {"gps_time", 4, 18s, 0.0},
+    {"no_error", 5, 0s, 20.0},
+    {"six", 6, 5h + 18s, 50.0},
+    {"seven", 7, 5h + 18s, 50.0},
+    {"eight", 8, 5h + 18s, -50.0},
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, Delayed, testing::ValuesIn(kRows),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(ClockOffset, NothingBeforeTheFirstSample) {
+  EXPECT_FALSE(ClockOffset{}.toHost(12h, kStart));
+}
+
+TEST(ClockOffset, IsUsefulAfterOneSecond) {
+  Vehicle vehicle{11};
+  ClockOffset estimate;
+  Vehicle::Sample sample{};
+  while (vehicle.now() < kStart + 1s) {
+    sample = vehicle.next(50ms);
+    estimate.take(sample.sent_at, sample.arrival);
+  }
+  const UtcTime stamp = *estimate.toHost(sample.sent_at, sample.arrival);
+  EXPECT_LT(std::abs(milliseconds(stamp - sample.truth)), 5.0);
+}
+
+class Stepped : public testing::TestWithParam<std::chrono::seconds> {};
+
+TEST_P(Stepped, AClockStepIsAbsorbedWithinTwoSeconds) {
+  Vehicle vehicle{21};
+  ClockOffset estimate;
+  const auto run = [&](nanoseconds duration) {
+    double worst_ms = 0.0;
+    const UtcTime end = vehicle.now() + duration;
+    while (vehicle.now() < end) {
+      const Vehicle::Sample sample = vehicle.next(50ms);
+      estimate.take(sample.sent_at, sample.arrival);
+      const UtcTime stamp = *estimate.toHost(sample.sent_at, sample.arrival);
+      worst_ms = std::max(worst_ms, std::abs(milliseconds(stamp - sample.truth)));
+    }
+    return worst_ms;
+  };
+  run(60s);
+  vehicle.clock_error += GetParam();
+  run(2s);
+  EXPECT_LT(run(60s), 20.0);
+  EXPECT_EQ(estimate.state().steps, 1u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Stepped,
+                         testing::Values(3s, -3s, 1s, -1s, 3600s, -3600s, 40000s, -40000s));
+
+TEST(ClockOffset, ABurstAfterAStallIsNoStep) {
+  ClockOffset estimate;
+  UtcTime sent = kStart;
+  for (int i = 0; i < 100; ++i, sent += 100ms) estimate.take(timeOfDay(sent), sent + 1ms);
+  const UtcTime stall_ends = sent + 4s;
+  for (; sent < stall_ends; sent += 100ms) {
+    estimate.take(timeOfDay(sent), stall_ends);
+    EXPECT_EQ(*estimate.toHost(timeOfDay(sent), stall_ends), sent + 1ms);
+  }
+  EXPECT_EQ(estimate.state().steps, 0u);
+}
+
+TEST(ClockOffset, TheHostsOwnStepIsFollowed) {
+  ClockOffset estimate;
+  UtcTime sent = kStart;
+  for (int i = 0; i < 100; ++i, sent += 100ms) estimate.take(timeOfDay(sent), sent + 1ms);
+  for (const nanoseconds host_step : {nanoseconds{2h}, nanoseconds{-2h}}) {
+    for (int i = 0; i < 30; ++i, sent += 100ms) {
+      estimate.take(timeOfDay(sent), sent + host_step + 1ms);
+    }
+    EXPECT_EQ(*estimate.toHost(timeOfDay(sent), sent + host_step), sent + host_step + 1ms);
+  }
+}
+
+TEST(ClockOffset, StampsNeverGoBackIn24HoursAcrossMidnight) {
+  Vehicle vehicle{31};
+  ClockOffset estimate;
+  UtcTime last{};
+  std::size_t back = 0;
+  while (vehicle.now() < kStart + 24h) {
+    const Vehicle::Sample sample = vehicle.next(100ms);
+    estimate.take(sample.sent_at, sample.arrival);
+    const UtcTime stamp = *estimate.toHost(sample.sent_at, sample.arrival);
+    back += stamp < last ? 1 : 0;
+    last = stamp;
+  }
+  EXPECT_EQ(back, 0u);
+  EXPECT_EQ(estimate.state().steps, 0u);
+}
+
+TEST(ClockOffset, AClockThatStandsStillGivesItsOwnTime) {
+  ClockOffset estimate;
+  for (ClockOffset::TimeOfDay sent = 1h; sent < 2h; sent += 1min) {
+    estimate.take(sent, 0s);
+    EXPECT_LE(*estimate.toHost(sent, 0s), 60s);
+  }
+}
+
+}  // namespace
+}  // namespace frontseat_driver::vehicle
