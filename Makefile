@@ -1,6 +1,8 @@
 # `make demo` shows a simulated vehicle, `make test` proves the driver. Both install what they need.
 SHELL := /bin/bash
-VEHICLE ?= sandshark
+# A program that drives the vehicle: square or square_cpp (a kingfisher), survey (a sandshark), none.
+EXAMPLE ?= none
+VEHICLE ?= $(if $(filter square%,$(EXAMPLE)),kingfisher,sandshark)
 # Another folder for everything that is built: make BUILD_DIR=/tmp/build test
 BUILD_DIR ?= build
 export BUILD_DIR
@@ -14,10 +16,10 @@ export JOBS
 help: ## what there is to make
 	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
 
-demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher
+demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher, EXAMPLE=square|square_cpp|survey
 	@scripts/install_dependencies build $(if $(DISPLAY),rviz)
 	@scripts/build -DCATKIN_ENABLE_TESTING=OFF
-	@scripts/demo "$(VEHICLE)"
+	@scripts/demo "$(VEHICLE)" "$(EXAMPLE)"
 
 test: ## builds with warnings as errors and runs all tests; closes with "N passed, M failed"
 	@scripts/install_dependencies build test

@@ -26,6 +26,12 @@ LAUNCHES = (
     ("demo.launch", [], {"/simulator", "/frontseat", "/model", "/rviz"}),
     ("demo.launch", ["vehicle:=kingfisher", "rviz:=false"],
      {"/simulator", "/frontseat", "/model"}),
+    ("demo.launch", ["example:=square", "rviz:=false"],
+     {"/simulator", "/frontseat", "/model", "/square"}),
+    ("demo.launch", ["example:=square_cpp", "rviz:=false"],
+     {"/simulator", "/frontseat", "/model", "/square"}),
+    ("demo.launch", ["example:=survey", "rviz:=false"],
+     {"/simulator", "/frontseat", "/model", "/survey"}),
     ("fleet.launch", [], {"/fleet", "/shark/simulator", "/fisher/simulator",
                           "/shark/frontseat", "/fisher/frontseat"}),
     ("fleet.launch", ["simulate:=false"], {"/fleet", "/shark/frontseat", "/fisher/frontseat"}),
@@ -69,6 +75,12 @@ class Launch(unittest.TestCase):
         sandshark = parameters(load("driver.launch", []), "/frontseat")
         self.assertEqual("sandshark", sandshark["dialect"])
         self.assertEqual("grid", sandshark["heading_reference"])
+
+    def test_an_example_chooses_its_vehicle(self):
+        for example, vehicle in (("square", "kingfisher"), ("survey", "sandshark")):
+            config = load("demo.launch", ["example:=" + example, "rviz:=false"])
+            for node in ("/simulator", "/frontseat"):
+                self.assertEqual(vehicle, parameters(config, node)["dialect"])
 
     def test_arguments_reach_the_driver(self):
         given = parameters(load("driver.launch", ["host:=10.0.0.5", "port:=29600",
