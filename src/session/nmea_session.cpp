@@ -49,6 +49,12 @@ std::string otherDialect(Dialect command, Dialect vehicle) {
          protocol::toString(vehicle);
 }
 
+bool isRefusal(const Acknowledgement& ack) {
+  return ack.command == protocol::bluefin::BehaviorChange::kFormatter &&
+         (ack.status == Acknowledgement::Status::Invalid ||
+          ack.status == Acknowledgement::Status::Failed);
+}
+
 bool isLogName(const std::string& name) {
   return name.size() == 3 && std::all_of(name.begin(), name.end(), [](char letter) {
            return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
@@ -98,6 +104,7 @@ void NmeaSession::disconnected(const Now& now, Output& out) {
   zero_due_ = false;
   effect_.clear();
   acks_.clear();
+  last_refusal_.reset();
   present_ = {};
   permission_.disconnected();
   requests_.failAll("the connection was lost before the vehicle answered");
@@ -175,7 +182,8 @@ void NmeaSession::takeAcknowledgement(const Now& now, Acknowledgement& ack) {
   const auto sent = acks_.match(ack, now.steady);
   if (!sent) return;
   ack.round_trip = now.steady - sent->at;
-  if (sent->request != AckTracker::kNoRequest) requests_.take(sent->request, ack);
+  if (sent->request != AckTracker::kNoRequest) return requests_.take(sent->request, ack);
+  if (isRefusal(ack)) last_refusal_ = {now.steady, finalWords(ack)};
 }
 
 void NmeaSession::takeMotion(const Now& now, const vehicle::Event& event) {

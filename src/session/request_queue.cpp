@@ -26,7 +26,9 @@ std::string inSeconds(std::chrono::nanoseconds duration) {
   return text;
 }
 
-std::string words(const Acknowledgement& ack) {
+}  // namespace
+
+std::string finalWords(const Acknowledgement& ack) {
   const std::string message{ack.message};
   switch (ack.status) {
     case Acknowledgement::Status::Done:
@@ -37,8 +39,6 @@ std::string words(const Acknowledgement& ack) {
       return "the vehicle calls it invalid (acknowledgement 0): " + message;
   }
 }
-
-}  // namespace
 
 void RequestQueue::add(Request request, std::string note, Respond respond, SteadyTime now) {
   Open open;
@@ -83,7 +83,7 @@ void RequestQueue::take(Id id, const Acknowledgement& ack) {
     open->due = SteadyTime::max();
     return;
   }
-  answer(open, ack.status == Acknowledgement::Status::Done, words(ack));
+  answer(open, ack.status == Acknowledgement::Status::Done, finalWords(ack));
 }
 
 void RequestQueue::expire(SteadyTime now) {

@@ -536,6 +536,49 @@ TEST_F(Commanding, AVehicleThatDoesNotFollowIsNoticed) {
   EXPECT_EQ(session_->effectComplaint(), "");
 }
 
+TEST_F(Commanding, TheVehiclesRefusalIsKeptWithItsTime) {
+  startSandshark();
+  command(heading(90.0));
+  EXPECT_FALSE(session_->lastRefusal());
+  acknowledge("RMB", 2);
+  EXPECT_FALSE(session_->lastRefusal());
+  pass(200ms);
+  acknowledge("RMB", 3);  // on its way
+  EXPECT_FALSE(session_->lastRefusal());
+  acknowledge("RMB", 1, "dynamic requests are off");
+  ASSERT_TRUE(session_->lastRefusal());
+  EXPECT_EQ(session_->lastRefusal()->words,
+            "the vehicle could not do it (acknowledgement 1): dynamic requests are off");
+  EXPECT_EQ(session_->lastRefusal()->at, now().steady);
+  pass(200ms);
+  acknowledge("RMB", 0, "heading");
+  EXPECT_EQ(session_->lastRefusal()->words,
+            "the vehicle calls it invalid (acknowledgement 0): heading");
+  EXPECT_EQ(session_->lastRefusal()->at, now().steady);
+  disconnect();
+  EXPECT_FALSE(session_->lastRefusal());
+}
+
+TEST_F(Commanding, WhatAServiceWaitsForIsNoRefusalOfTheRepeatedCommand) {
+  startSandshark();
+  request(heading(90.0));
+  acknowledge("RMB", 0, "heading");
+  ASSERT_THAT(answers_, SizeIs(1));
+  EXPECT_FALSE(session_->lastRefusal());
+  hear("BFACK,120001.000,RMB,115959.000,,0,0,another client's,");
+  EXPECT_FALSE(session_->lastRefusal());
+}
+
+TEST_F(Commanding, WhatIsCommandedCanBeSeen) {
+  startKingfisher();
+  EXPECT_FALSE(session_->commanded());
+  command(vehicle::DriveCommand{0.5, 0.25});
+  ASSERT_TRUE(session_->commanded());
+  EXPECT_EQ(std::get<vehicle::DriveCommand>(*session_->commanded()).port, 0.5);
+  pass(2s);
+  EXPECT_FALSE(session_->commanded());
+}
+
 // --- Formats, by hand from the documents ---
 
 struct Format {

@@ -57,6 +57,12 @@ struct NmeaCounters {
   std::uint64_t refused_commands = 0;
 };
 
+/// The vehicle's own refusal of a repeated command: BFACK 0 or 1 for a BPRMB.
+struct CommandRefusal {
+  SteadyTime at{};
+  std::string words;  ///< the vehicle's, with the status
+};
+
 /// The conversation in either NMEA dialect (SPI 0.1, section 4; Kingfisher 0.1, sections 2 and 4).
 ///
 /// After every connect to a Sandshark: BPVER, BPLOG ACK, then the other log sentences, one write
@@ -109,6 +115,13 @@ class NmeaSession : public Session {
 
   /// Commanded and measured, where the vehicle does not follow; empty while all is well.
   const std::string& effectComplaint() const { return effect_.complaint(); }
+
+  /// What is being repeated to the vehicle; empty when nothing is.
+  const std::optional<vehicle::Command>& commanded() const { return slot_.command(); }
+
+  /// The last on this connection; empty if there was none. One that a service waited for is its
+  /// caller's to hear, and not here.
+  const std::optional<CommandRefusal>& lastRefusal() const { return last_refusal_; }
 
   /// Commands sent that the vehicle has not acknowledged yet.
   std::size_t unacknowledged() const { return acks_.outstanding(); }
@@ -170,6 +183,7 @@ class NmeaSession : public Session {
   RequestQueue requests_;
   AckTracker acks_;
   EffectMonitor effect_;
+  std::optional<CommandRefusal> last_refusal_;
   vehicle::PayloadStatus payload_status_{true, "OK"};
   PresentState present_;
   SteadyTime navigation_at_{};

@@ -43,6 +43,9 @@ struct Answer {
 
 using Respond = std::function<void(const Answer&)>;
 
+/// A final acknowledgement in words for people: the vehicle's own, behind what its status means.
+std::string finalWords(const vehicle::Acknowledgement& ack);
+
 /// Requests that wait to be sent or answered. Each is answered exactly once: by the vehicle's final
 /// acknowledgement, by its deadline, or by the end of the connection.
 class RequestQueue {
