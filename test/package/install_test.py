@@ -10,7 +10,8 @@ import unittest
 import package_under_test as package
 
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
-PROGRAMS = ("nmea_node", "nmea_simulator")
+PROGRAMS = ("nmea_node", "nmea_simulator", "kingfisher_square", "kingfisher_square.py",
+            "sandshark_survey.py")
 LAYERS = ("nmea", "vehicle", "link", "protocol", "session", "driver", "sim")
 
 
