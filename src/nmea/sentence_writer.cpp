@@ -8,7 +8,7 @@
 namespace frontseat_driver::nmea {
 namespace {
 
-__extension__ typedef unsigned __int128 Wide;  // GCC and clang; the extension quiets -Wpedantic
+__extension__ using Wide = unsigned __int128;  // the word quiets -Wpedantic
 
 constexpr std::size_t kTail = 5;  // `*`, two hex digits, CR, LF
 constexpr double kTooLarge = 1e15;

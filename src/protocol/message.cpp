@@ -11,7 +11,7 @@ namespace {
 using nmea::DegreeSplit;
 using nmea::FieldReader;
 
-constexpr std::string_view kAnyTalker = "";
+constexpr std::string_view kAnyTalker;
 
 /// Up to eight characters as one number, so that an address is compared at once.
 constexpr std::uint64_t pack(std::string_view text, std::uint64_t from = 0) {
