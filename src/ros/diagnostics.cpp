@@ -30,6 +30,7 @@ Diagnostics::Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node,
   updater_.add("decoding", [this](Status& status) { decoding(status); });
   updater_.add("clock", [this](Status& status) { clock(status); });
   updater_.add("control", [this](Status& status) { control(status); });
+  updater_.add("commands", [this](Status& status) { commands(status); });
   updater_.add("battery", [this](Status& status) { battery(status); });
   timer_ = node.createWallTimer(ros::WallDuration(1.0),
                                 [this](const ros::WallTimerEvent&) { update(); });
@@ -127,7 +128,24 @@ void Diagnostics::control(Status& status) const {
   status.summary(DiagnosticStatus::OK,
                  free ? "the vehicle takes commands" : health_.control_reason);
   status.add("commands enabled", health_.commands_enabled);
-  status.add("commands refused", health_.counters.refused_commands);
+}
+
+// What this driver refuses it says to whoever sent it, so it is counted and no warning here.
+void Diagnostics::commands(Status& status) const {
+  if (!health_.vehicle_refusal.empty()) {
+    status.summary(DiagnosticStatus::WARN,
+                   "the vehicle refuses what is sent: " + health_.vehicle_refusal);
+  } else if (!health_.effect_complaint.empty()) {
+    status.summary(DiagnosticStatus::WARN,
+                   "the vehicle does not do what it is told: " + health_.effect_complaint);
+  } else if (health_.commanded.empty()) {
+    status.summary(DiagnosticStatus::OK, "nothing is commanded");
+  } else {
+    status.summary(DiagnosticStatus::OK, "commanding " + health_.commanded);
+  }
+  status.add("commanded", health_.commanded);
+  status.add("refused by the driver", health_.counters.refused_commands);
+  status.add("sent and not acknowledged", health_.unacknowledged);
 }
 
 void Diagnostics::battery(Status& status) const {

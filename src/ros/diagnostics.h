@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <ros/wall_timer.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <mutex>
 #include <optional>
@@ -19,22 +20,27 @@ namespace frontseat_driver::ros_layer {
 /// How the driver is, once a second.
 struct Health {
   bool connected = false;
-  std::string endpoint;       ///< as connected, or host and port as configured
-  std::string last_failure;   ///< why there is no connection
-  std::string dialect;        ///< empty while not known
+  std::string endpoint;      ///< as connected, or host and port as configured
+  std::string last_failure;  ///< why there is no connection
+  std::string dialect;       ///< empty while not known
   session::NmeaCounters counters;
   session::NmeaCounters counters_before;  ///< a second earlier
   std::vector<SentenceRates::Rate> rates;
-  std::optional<double> navigation_age_s;   ///< empty: none since the connection was made
-  std::optional<double> clock_offset_s;     ///< vehicle's UTC minus this computer's
-  std::uint64_t jumps = 0;                  ///< positions dropped
+  std::optional<double> navigation_age_s;  ///< empty: none since the connection was made
+  std::optional<double> clock_offset_s;    ///< vehicle's UTC minus this computer's
+  std::uint64_t jumps = 0;                 ///< positions dropped
   vehicle::Grant grant = vehicle::Grant::Unknown;
   bool commands_enabled = true;
   std::string control_reason;
+  std::string commanded;           ///< what is being repeated to the vehicle; empty when nothing is
+  std::string effect_complaint;    ///< commanded and measured, if the vehicle does not follow
+  std::string vehicle_refusal;     ///< the vehicle's last refusal of a command, while it is recent
+  std::size_t unacknowledged = 0;  ///< sentences sent without an answer so far
   std::optional<double> battery_v;
 };
 
-/// Publishes Health on /diagnostics, a status for each layer so that the first bad one is the cause.
+/// Publishes Health on /diagnostics, a status for each layer so that the first bad one is the
+/// cause.
 class Diagnostics {
  public:
   Diagnostics(ros::NodeHandle node, ros::NodeHandle private_node, const std::string& name,
@@ -52,6 +58,7 @@ class Diagnostics {
   void decoding(Status& status) const;
   void clock(Status& status) const;
   void control(Status& status) const;
+  void commands(Status& status) const;
   void battery(Status& status) const;
 
   const double max_data_age_s_;

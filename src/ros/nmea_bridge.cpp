@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "command_words.h"
 #include "convert.h"
 #include "frontseat_driver/vehicle/date_resolution.h"
 
@@ -14,6 +15,7 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr auto kWarnAtMostEvery = 5s;
+constexpr auto kRefusalTold = 3s;
 
 vehicle::Now readClocks() {
   return {std::chrono::steady_clock::now(), std::chrono::system_clock::now().time_since_epoch(),
@@ -202,6 +204,13 @@ void NmeaBridge::reportHealth(const vehicle::Now& now) {
   health_.rates = rates_.take(now.steady);
   health_.jumps = publisher_.builder().jumps();
   if (last_navigation_) health_.navigation_age_s = seconds(now.steady - *last_navigation_);
+  const auto& commanded = session_.commanded();
+  health_.commanded = commanded ? toWords(*commanded) : "";
+  health_.effect_complaint = session_.effectComplaint();
+  const auto& refusal = session_.lastRefusal();
+  const bool recent = refusal && now.steady - refusal->at < kRefusalTold;
+  health_.vehicle_refusal = recent ? refusal->words : "";
+  health_.unacknowledged = session_.unacknowledged();
   diagnostics_.set(health_);
 }
 
