@@ -78,7 +78,9 @@ SimulatorArguments parseArguments(const std::vector<std::string>& arguments) {
   try {
     app.parse(last_first);
   } catch (const CLI::ParseError& error) {
-    return ended(app.exit(error) == 0 ? EXIT_SUCCESS : EXIT_FAILURE);
+    if (error.get_exit_code() == EXIT_SUCCESS) return ended(app.exit(error));  // --help
+    std::cerr << error.what() << std::endl;
+    return ended(EXIT_FAILURE);
   }
   parsed.with_ros = !no_ros;
   for (const auto& [name, value] : values) {

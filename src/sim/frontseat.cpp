@@ -256,7 +256,8 @@ void Frontseat::obey(Client& client, std::string_view line) {
 }
 
 void Frontseat::replaceEmptyBattery() {
-  if (config_.battery_swap && model().batteryFraction() < kSwapBelow) mutableModel().replaceBattery();
+  if (config_.battery_swap && model().batteryFraction() < kSwapBelow)
+    mutableModel().replaceBattery();
 }
 
 UtcTime Frontseat::clock(UtcTime utc) const {

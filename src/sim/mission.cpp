@@ -12,7 +12,7 @@ constexpr double kLookahead_m = 8.0;
 constexpr double kSurfaced_m = 0.3;
 constexpr double kTransitSpeed_m_s = 1.2;
 constexpr double kAscentPitch_deg = 25.0;
-constexpr double kShortestAscent_s = 1.0;  // so that Aborting is told even at the surface
+constexpr double kShortestAscent_s = 1.0;   // so that Aborting is told even at the surface
 constexpr double kLongestWrapUp_s = 600.0;  // against a current that no torpedo overcomes
 
 /// Words of SPI 0.1, section 6.3.

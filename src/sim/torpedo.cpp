@@ -62,6 +62,10 @@ VehicleModel::Acceleration Torpedo::accelerate(double dt_s) {
   return a;
 }
 
+double Torpedo::sinkRate() const {
+  return -state().surge_m_s * std::sin(state().pitch_rad) - kRise;
+}
+
 double Torpedo::power() const {
   const double load = std::abs(actual_.thruster_rpm) / 1000.0;
   return kHotelPower_w + kThrustPower_w * load * load * load;

@@ -68,9 +68,8 @@ void VehicleModel::translate(double dt_s) {
   state_.velocity_north_m_s =
       ahead * std::cos(state_.heading_rad) + environment_.current_drift_m_s * std::cos(set);
   const double predicted_depth = state_.depth_m + before.velocity_down_m_s * dt_s;
-  const double down = -state_.surge_m_s * std::sin(state_.pitch_rad) - buoyantRise();
   state_.velocity_down_m_s =
-      std::clamp(down, -std::max(0.0, predicted_depth) / kBoundary_s,
+      std::clamp(sinkRate(), -std::max(0.0, predicted_depth) / kBoundary_s,
                  std::max(0.0, environment_.bottom_depth_m - predicted_depth) / kBoundary_s);
 
   state_.east_m += moved(before.velocity_east_m_s, state_.velocity_east_m_s, dt_s);

@@ -144,6 +144,16 @@ TEST(CatamaranModel, MorePortThrustTurnsClockwise) {
   EXPECT_NEAR(vehicle.state().yaw_rate_rad_s, 1.2 * 0.4 / 2.0, 1e-3);
 }
 
+TEST(CatamaranModel, StaysAtTheSurfaceWhenItPitches) {
+  Catamaran vehicle = catamaran(5.0);
+  vehicle.command({1.0, 1.0});
+  for (int i = 0; i < 3000; ++i) {
+    vehicle.step(kStep_s);
+    ASSERT_EQ(vehicle.state().depth_m, 0.0);
+    ASSERT_EQ(vehicle.state().velocity_down_m_s, 0.0);
+  }
+}
+
 TEST(CatamaranModel, TurnsOnTheSpot) {
   Catamaran vehicle = catamaran();
   vehicle.command({0.6, -1.0});  // equal effects

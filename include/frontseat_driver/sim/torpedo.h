@@ -35,7 +35,7 @@ class Torpedo : public VehicleModel {
  private:
   Acceleration accelerate(double dt_s) override;
   double power() const override;
-  double buoyantRise() const override { return kRise; }
+  double sinkRate() const override;
 
   Actuators commanded_;
   Actuators actual_;

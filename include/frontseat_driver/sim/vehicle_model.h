@@ -57,8 +57,8 @@ class VehicleModel {
   virtual Acceleration accelerate(double dt_s) = 0;
   /// Electrical power of thrusters and everything else, W.
   virtual double power() const = 0;
-  /// Speed at which the hull rises of itself when submerged, m/s; 0 for one that floats.
-  virtual double buoyantRise() const { return 0.0; }
+  /// Vertical speed that hull and fins want, m/s, positive down; 0 for a vehicle that floats.
+  virtual double sinkRate() const { return 0.0; }
 
   const AngleRates& angleRates() const { return rates_; }
   bool powered() const { return battery_.fraction() > 0.0; }
