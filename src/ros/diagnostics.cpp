@@ -121,6 +121,11 @@ void Diagnostics::clock(Status& status) const {
     status.summary(DiagnosticStatus::OK, "the vehicle's clock and this computer's agree");
   }
   status.addf("vehicle minus computer, with the delay of the link", "%.3f s", *offset_s);
+  const vehicle::ClockOffset::State& clock = health_.clock;
+  status.addf("learned offset", "%.6f s", std::chrono::duration<double>(clock.offset).count());
+  status.addf("jitter", "%.3f ms", std::chrono::duration<double, std::milli>(clock.jitter).count());
+  status.addf("drift", "%.1f ppm", clock.drift_ppm);
+  status.add("clock steps", clock.steps);
 }
 
 void Diagnostics::control(Status& status) const {

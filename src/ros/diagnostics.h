@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frontseat_driver/session/nmea_session.h"
+#include "frontseat_driver/vehicle/clock_offset.h"
 #include "frontseat_driver/vehicle/event.h"
 #include "sentence_rates.h"
 
@@ -28,6 +29,7 @@ struct Health {
   std::vector<SentenceRates::Rate> rates;
   std::optional<double> navigation_age_s;  ///< empty: none since the connection was made
   std::optional<double> clock_offset_s;    ///< vehicle's UTC minus this computer's
+  vehicle::ClockOffset::State clock;       ///< what synced stamps go by
   std::uint64_t jumps = 0;                 ///< positions dropped
   vehicle::Grant grant = vehicle::Grant::Unknown;
   bool commands_enabled = true;

@@ -203,6 +203,7 @@ void NmeaBridge::reportHealth(const vehicle::Now& now) {
   health_.counters_before = std::exchange(health_.counters, session_.counters());
   health_.rates = rates_.take(now.steady);
   health_.jumps = publisher_.builder().jumps();
+  health_.clock = publisher_.builder().clock();
   if (last_navigation_) health_.navigation_age_s = seconds(now.steady - *last_navigation_);
   const auto& commanded = session_.commanded();
   health_.commanded = commanded ? toWords(*commanded) : "";
