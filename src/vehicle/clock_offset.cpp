@@ -87,12 +87,14 @@ void ClockOffset::put(nanoseconds offset, UtcTime arrival) {
   Bucket& newest = buckets_[newest_];
   if (used_ > 0 && arrival < newest.begin + kBucket) {
     if (offset < newest.offset) newest = {newest.begin, arrival, offset};
+    if (offset < offsetAt(arrival)) least_ = newest;
     return;
   }
   if (used_ > 0) newest_ = (newest_ + 1) % kBuckets;
   used_ = std::min(used_ + 1, kBuckets);
   buckets_[newest_] = {arrival, arrival, offset};
   fitDrift();
+  findLeast(arrival);
 }
 
 // The line under all samples that is closest to them: the edge of their lower convex hull above the
@@ -125,15 +127,17 @@ double ClockOffset::slope(const Bucket& from, const Bucket& to) {
 }
 
 nanoseconds ClockOffset::offsetAt(UtcTime arrival) const {
-  nanoseconds least = nanoseconds::max();
+  return least_.offset + scaled(std::min<nanoseconds>(arrival - least_.at, kWindow), drift_);
+}
+
+// The drift is the same for all, so the earliest sample stays the earliest while time goes on.
+void ClockOffset::findLeast(UtcTime arrival) {
+  least_ = buckets_[newest_];
   for (std::size_t i = 0; i < used_; ++i) {
     const Bucket& bucket = buckets_[i];
-    if (arrival - bucket.at > kWindow) continue;
-    least = std::min(least, bucket.offset + scaled(arrival - bucket.at, drift_));
+    const bool earlier = bucket.offset + scaled(arrival - bucket.at, drift_) < offsetAt(arrival);
+    if (earlier && arrival - bucket.at <= kWindow) least_ = bucket;
   }
-  if (least != nanoseconds::max()) return least;
-  const Bucket& newest = buckets_[newest_];  // after a pause longer than the window
-  return newest.offset + scaled(kWindow, drift_);
 }
 
 std::optional<UtcTime> ClockOffset::toHost(TimeOfDay time, UtcTime arrival) const {

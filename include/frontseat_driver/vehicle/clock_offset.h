@@ -63,11 +63,13 @@ class ClockOffset {
   void startAgain(std::chrono::nanoseconds offset, UtcTime arrival);
   void put(std::chrono::nanoseconds offset, UtcTime arrival);
   void fitDrift();
+  void findLeast(UtcTime arrival);
   static double slope(const Bucket& from, const Bucket& to);
 
   std::array<Bucket, kBuckets> buckets_;
   std::size_t used_ = 0;
   std::size_t newest_ = 0;
+  Bucket least_;  ///< the earliest sample of all
   std::optional<std::chrono::nanoseconds> last_offset_;  ///< of the newest sample; tells the day
   double drift_ = 0.0;
   std::chrono::nanoseconds jitter_{};
