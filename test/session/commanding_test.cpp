@@ -153,6 +153,42 @@ TEST_F(Commanding, AgeCountsFromWhenTheCommandReachedThisComputer) {
   EXPECT_EQ(out_.sent.back().sentence, kZero);
 }
 
+TEST_F(Commanding, AStepOfTheSystemClockNeitherEndsNorLengthensACommand) {
+  for (const auto step : {std::chrono::hours{-3}, std::chrono::hours{5}}) {
+    startKingfisher();
+    out_.sent.clear();
+    command(vehicle::DriveCommand{0.5, 0.5});
+    const auto stepped = [&] {
+      Now later = now();
+      later.utc += step;
+      later.stamp = {};  // and ROS time stands still
+      return later;
+    };
+    const SteadyTime began = now().steady;
+    while (session_->nextStep() <= began + 3s) {
+      const std::chrono::nanoseconds due = session_->nextStep().time_since_epoch();
+      elapsed_ = std::max(elapsed_, due);
+      session_->step(stepped(), out_);
+    }
+    ASSERT_THAT(out_.sent, SizeIs(6)) << step.count();  // at once, four times more, and zero
+    EXPECT_EQ(out_.sent[4].at - began, 800ms);
+    EXPECT_EQ(out_.sent[5].at - began, 1s);
+    EXPECT_EQ(out_.sent[5].sentence, kZero);
+  }
+}
+
+TEST_F(Commanding, AZeroThrustThatTheLinkDoesNotTakeIsTriedAgain) {
+  startKingfisher();
+  command(vehicle::DriveCommand{0.5, 0.5});
+  out_.sent.clear();
+  out_.link_takes = false;
+  pass(1500ms);
+  EXPECT_THAT(out_.sent, IsEmpty());
+  out_.link_takes = true;
+  pass(20ms);
+  EXPECT_THAT(out_.sentences(), ElementsAre(kZero));
+}
+
 TEST_F(Commanding, SandsharkHearsABehaviorAtLeastEveryFiveSeconds) {
   NmeaOptions options = withDialect(Dialect::Sandshark);
   options.command_timeout = 5s;
