@@ -30,7 +30,7 @@ def rows(heading):
 class Documentation(unittest.TestCase):
     def test_readme_lists_every_topic(self):
         self.assertEqual(set(package.topics_in_code()) | {"/tf", "/tf_static", "/diagnostics"},
-                         rows("Topics") | rows("Commands"))
+                         rows("Topics") | rows("Command the vehicle"))
 
     def test_readme_lists_every_parameter(self):
         self.assertEqual(package.parameters_in_code(), rows("Parameters"))
@@ -43,6 +43,16 @@ class Documentation(unittest.TestCase):
         self.assertTrue(targets)
         for target in targets:
             self.assertTrue(os.path.exists(os.path.join(package.ROOT, target)), target)
+
+    def test_safety_names_tests_that_exist(self):
+        tests = "".join(package.read(path) for path in package.files("test", ".cpp", ".py"))
+        failures = package.read("doc", "safety.md").split("## Failures")[1]
+        names = re.findall(r"\btest_[a-z_]+[a-z]\b|\b[A-Z][a-z]*(?:[A-Z][a-z]*){2,}\b", failures)
+        self.assertGreater(len(names), 30)
+        for name in names:
+            self.assertIn(name, tests)
+        for path in re.findall(r"`([a-z_/]+/[a-z_]+\.(?:cpp|py))`", failures):
+            self.assertTrue(os.path.exists(os.path.join(package.ROOT, "test", path)), path)
 
     def test_readme_shows_both_commands(self):
         for command in ("make demo", "make test"):
