@@ -24,6 +24,9 @@ constexpr const char* kNoConnection = "there is no connection to the vehicle";
 constexpr const char* kLeaving = "the driver is stopping";
 constexpr const char* kRecord = "a record is being played";
 
+// Spacing longer than this must not keep the last zero thrust from being sent: see driver::Driver.
+constexpr auto kLastWordsWait = 30ms;
+
 // Acknowledgements first, so that the other requests are acknowledged (SPI 0.1, section 7.1).
 std::vector<std::string> logRequests(const NmeaOptions& options) {
   std::vector<std::string> requests;
@@ -115,6 +118,7 @@ void NmeaSession::leave(const Now& now, Output& out) {
   endCommanding(now, out);
   leaving_ = true;
   if (!connected_) zero_due_ = false;
+  next_send_ = std::min(next_send_, now.steady + kLastWordsWait);
   handshake_due_ = SteadyTime::max();
   status_due_ = SteadyTime::max();
   requests_.failAll(kLeaving);
@@ -230,7 +234,8 @@ void NmeaSession::count(const nmea::Failure& failure) {
 
 std::string NmeaSession::command(const Now& now, const vehicle::Command& command,
                                  SteadyTime received, Output& out) {
-  const std::string refusal = refusalOf(now, command);
+  std::string refusal = refusalOf(now, command);
+  if (refusal.empty()) refusal = refusalOf(now, received);
   if (!refusal.empty()) {
     ++counters_.refused_commands;
     return refusal;
@@ -256,7 +261,17 @@ std::string NmeaSession::refusalOf(const Now& now, const vehicle::Command& comma
   return {};
 }
 
+// What a callback that was held up brings is older than it looks.
+std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
+  if (received < permitted_since_) return "it is from before the vehicle could be commanded";
+  if (now.steady - received >= options_.command_timeout) {
+    return "it waited in this computer for longer than command_timeout";
+  }
+  return {};
+}
+
 void NmeaSession::stop(const Now& now, Output& out) {
+  requests_.failUnsentBehaviors("commanding was stopped before it could be sent");
   endCommanding(now, out);
   zero_due_ = connected_ && isBoat() && !options_.listen_only && !hasLeft();
 }
@@ -267,7 +282,10 @@ void NmeaSession::setCommandsEnabled(const Now& now, bool enabled, Output& out) 
 }
 
 void NmeaSession::permissionChanged(const Now& now, Output& out) {
-  if (!permission_.granted()) endCommanding(now, out);
+  if (!permission_.granted()) {
+    requests_.failUnsentBehaviors(std::string{permission_.state().reason});
+    endCommanding(now, out);
+  }
   reportControl(now, out);
 }
 
@@ -291,7 +309,10 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
   const auto* log = std::get_if<LogSwitch>(&request);
   if (log && isLogName(log->sentence) && !isBoat()) remember(*log);
   if (!refusal.empty()) return respond({false, refusal});
-  if (std::holds_alternative<AbortRequest>(request)) endCommanding(now, out);
+  if (std::holds_alternative<AbortRequest>(request)) {
+    requests_.failUnsentBehaviors("the mission was aborted before it could be sent");
+    endCommanding(now, out);
+  }
   requests_.add(std::move(request), std::move(note), std::move(respond), now.steady);
 }
 
@@ -495,6 +516,9 @@ ControlState NmeaSession::control() const {
 
 void NmeaSession::reportControl(const Now& now, Output& out) {
   const ControlState state = control();
+  const bool permitted = state.reason.empty();
+  if (permitted && !permitted_) permitted_since_ = now.steady;
+  permitted_ = permitted;
   if (reported_control_ == state) return;
   reported_control_ = state;
   out.event(now, toEvent(state));

@@ -102,6 +102,14 @@ void RequestQueue::failAll(const std::string& reason) {
   while (!open_.empty()) answer(open_.begin(), false, reason);
 }
 
+void RequestQueue::failUnsentBehaviors(const std::string& reason) {
+  for (auto open = open_.begin(); open != open_.end();) {
+    const auto current = open++;
+    const bool behavior = std::holds_alternative<vehicle::BehaviorCommand>(current->request);
+    if (behavior && !current->sent) answer(current, false, reason);
+  }
+}
+
 void RequestQueue::answer(Requests::iterator open, bool success, const std::string& message) {
   const Respond respond = std::move(open->respond);
   const std::string text = open->note.empty() ? message : message + "; " + open->note;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -147,6 +148,7 @@ TEST_F(Commanding, AFastPublisherLeavesRoomForTheRest) {
 
 TEST_F(Commanding, AgeCountsFromWhenTheCommandReachedThisComputer) {
   startKingfisher();
+  pass(10s);
   session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, now().steady - 900ms, out_);
   session_->step(now(), out_);
   pass(100ms);
@@ -352,6 +354,66 @@ TEST_F(Commanding, LeavingASandsharkSaysNothingMore) {
   EXPECT_THAT(out_.sent, IsEmpty());
   ASSERT_THAT(answers_, SizeIs(1));
   EXPECT_EQ(answers_[0].message, "the driver is stopping");
+}
+
+TEST_F(Commanding, ABehaviorThatWaitsIsNotSentAfterCommandingHasEnded) {
+  const std::function<void()> ends[] = {
+      [this] { hear("BFCTL,120001.000,0"); },
+      [this] { gate(false); },
+      [this] { stop(); },
+      [this] { request(AbortRequest{"leak", true}); },
+  };
+  for (const auto& end : ends) {
+    answers_.clear();
+    startSandshark();
+    request(LogSwitch{"CTD", true});  // holds the next one back by the spacing
+    request(heading(45.0));
+    end();
+    ASSERT_GE(answers_.size(), 1u);
+    EXPECT_FALSE(answers_[0].success);
+    pass(10s);
+    EXPECT_THAT(out_.sentences(), testing::Not(testing::Contains(StartsWith("$BPRMB"))));
+  }
+}
+
+TEST_F(Commanding, ACommandFromBeforeThePermissionIsRefused) {
+  startKingfisher();
+  const SteadyTime before = now().steady;
+  pass(10ms);
+  disconnect();
+  connect();
+  pass(100ms);
+  EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, before, out_),
+            "it is from before the vehicle could be commanded");
+  gate(false);
+  const SteadyTime closed = now().steady;
+  pass(10ms);
+  gate(true);
+  EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, closed, out_),
+            "it is from before the vehicle could be commanded");
+  pass(10s);
+  EXPECT_THAT(out_.sent, IsEmpty());
+}
+
+TEST_F(Commanding, ACommandThatWaitedTooLongDoesNotTakeAGoodOnesPlace) {
+  startKingfisher();
+  pass(10s);
+  command(vehicle::DriveCommand{0.5, 0.5});
+  EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.9, 0.9}, now().steady - 1s, out_),
+            "it waited in this computer for longer than command_timeout");
+  pass(500ms);
+  EXPECT_THAT(out_.sentences(), testing::Each(StartsWith("$PYDIR,50,50*")));
+}
+
+TEST_F(Commanding, LeavingDoesNotWaitForALongSpacing) {
+  NmeaOptions options = withDialect(Dialect::Kingfisher);
+  options.send_spacing = 1s;
+  startKingfisher(options);
+  command(vehicle::DriveCommand{0.5, 0.5});
+  session_->leave(now(), out_);
+  pass(30ms);
+  EXPECT_TRUE(session_->hasLeft());
+  EXPECT_EQ(out_.sent.back().sentence, kZero);
 }
 
 // --- Requests and their acknowledgements ---

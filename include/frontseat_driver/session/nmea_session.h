@@ -138,6 +138,7 @@ class NmeaSession : public Session {
   void endCommanding(const Now& now, Output& out);
 
   std::string refusalOf(const Now& now, const vehicle::Command& command) const;
+  std::string refusalOf(const Now& now, SteadyTime received) const;
   std::string refusalOf(const Request& request, const Now& now) const;
   void remember(const LogSwitch& log);
   PresentState present(const Now& now) const;
@@ -175,6 +176,9 @@ class NmeaSession : public Session {
   SteadyTime handshake_due_ = SteadyTime::max();
   SteadyTime status_due_ = SteadyTime::max();
   SteadyTime next_send_{};  ///< when send_spacing allows the next sentence
+
+  bool permitted_ = false;
+  SteadyTime permitted_since_{};  ///< a command must not be older
 
   CommandSlot slot_;
   bool zero_due_ = false;          ///< a Kingfisher is to hear zero thrust

@@ -87,6 +87,9 @@ class RequestQueue {
 
   void failAll(const std::string& reason);
 
+  /// Commanding has ended: a behavior that has not gone out yet must not go out after it.
+  void failUnsentBehaviors(const std::string& reason);
+
   SteadyTime nextDue() const;
   SteadyTime nextDeadline() const;
 
