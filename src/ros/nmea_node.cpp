@@ -1,22 +1,52 @@
 #include <nodelet/loader.h>
+#include <poll.h>
 #include <ros/init.h>
 #include <ros/names.h>
 #include <ros/this_node.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 
-// Leaves as Ctrl-C does: zero thrust, orderly close. roscpp by itself handles SIGINT only.
-void onTerminate(int) { ros::requestShutdown(); }
+namespace {
+
+const int ending = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+std::atomic<bool> loaded{false};
+
+// Before the nodelet is there, ROS may be waiting for its master, and nothing else can end that.
+void onSignal(int) {
+  if (!loaded) ros::requestShutdown();
+  const std::uint64_t once = 1;
+  [[maybe_unused]] const auto written = write(ending, &once, sizeof once);
+}
+
+// roscpp takes some 0.3 s from a signal to the end of ros::spin(), long enough for another command
+// to the vehicle.
+void waitForTheEnd() {
+  constexpr int kLookForRosShutdown_ms = 50;
+  pollfd signalled{ending, POLLIN, 0};
+  while (ros::ok() && poll(&signalled, 1, kLookForRosShutdown_ms) <= 0) {
+  }
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "nmea_node");
-  std::signal(SIGTERM, onTerminate);
-  nodelet::Loader loader{false};
-  const nodelet::V_string no_arguments;
-  if (!loader.load(ros::this_node::getName(), "frontseat_driver/NmeaNodelet",
-                   ros::names::getRemappings(), no_arguments)) {
-    return 1;
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  ros::init(argc, argv, "nmea_node", ros::init_options::NoSigintHandler);
+  {
+    nodelet::Loader loader{false};
+    const nodelet::V_string no_arguments;
+    if (!loader.load(ros::this_node::getName(), "frontseat_driver/NmeaNodelet",
+                     ros::names::getRemappings(), no_arguments)) {
+      return 1;
+    }
+    loaded = true;
+    waitForTheEnd();
   }
-  ros::spin();
+  ros::shutdown();
   return 0;
 }

@@ -1,5 +1,7 @@
 #include "nmea_nodelet.h"
 
+#include <ros/init.h>
+
 #include <pluginlib/class_list_macros.hpp>
 
 #include "parameters.h"
@@ -7,6 +9,8 @@
 namespace frontseat_driver::ros_layer {
 
 void NmeaNodelet::onInit() {
+  // After an interrupted wait for the master nothing can be advertised; publishing would abort.
+  if (ros::isShuttingDown()) return;
   XmlRpc::XmlRpcValue values;
   getPrivateNodeHandle().getParam(getPrivateNodeHandle().getNamespace(), values);
   try {
