@@ -24,6 +24,8 @@ namespace {
 
 constexpr std::size_t kReadSize = 16384;
 constexpr std::size_t kMaxBacklog = std::size_t{1} << 20;
+/// What a client does not read waits in the backlog, which has a limit, and not in the kernel.
+constexpr int kSendBuffer = 65536;
 constexpr std::chrono::milliseconds kCloseLimit{250};
 /// After an accept that failed, mostly because there was no file descriptor left.
 constexpr std::chrono::milliseconds kAcceptAgain{100};
@@ -40,6 +42,7 @@ class Peer : public std::enable_shared_from_this<Peer> {
   void begin() {
     error_code ignored;
     socket_.set_option(tcp::no_delay(true), ignored);
+    socket_.set_option(tcp::socket::send_buffer_size(kSendBuffer), ignored);
     socket_.non_blocking(true, ignored);
     read();
   }

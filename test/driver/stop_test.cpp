@@ -249,6 +249,19 @@ TEST(StopOrder, LastWordsReachTheVehicleThenTheEnd) {
   EXPECT_EQ(heard.error, 0);
 }
 
+TEST(StopOrder, NoTaskIsTakenAnyMore) {
+  Vehicle vehicle;
+  Rig rig("127.0.0.1", vehicle.port());
+  rig.session.has_left = false;  // so that there is time for it
+  rig.session.on_leave = [&](auto&, auto&) {
+    rig.driver.post([&](const Now&) { rig.log.add("task"); });
+  };
+  rig.driver.start();
+  ASSERT_TRUE(waitUntil([&] { return rig.listener.connects == 1; }));
+  rig.driver.stop();
+  EXPECT_FALSE(rig.log.has("task"));
+}
+
 TEST(StopOrder, AgainAndFromSeveralThreads) {
   Vehicle vehicle;
   Rig rig("127.0.0.1", vehicle.port());

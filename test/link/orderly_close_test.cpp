@@ -17,11 +17,16 @@ using Clock = std::chrono::steady_clock;
 
 const std::string kLast = "$PYDIR,0.000,0.000*00\r\n";
 
-/// Telemetry until the socket takes no more.
-void flood(const Socket& socket) {
+/// Telemetry until the socket takes no more, up to 1 MiB, since a reader may be as fast; 0, or
+/// errno if the connection is broken.
+int flood(const Socket& socket) {
   static const std::string telemetry(8192, 't');
-  while (send(socket.fd(), telemetry.data(), telemetry.size(), MSG_DONTWAIT | MSG_NOSIGNAL) > 0) {
+  for (int i = 0; i < 128; ++i) {
+    const int flags = MSG_DONTWAIT | MSG_NOSIGNAL;
+    if (send(socket.fd(), telemetry.data(), telemetry.size(), flags) > 0) continue;
+    return errno == EAGAIN ? 0 : errno;
   }
+  return 0;
 }
 
 /// A vehicle that floods all the time and reads little by little, to the end of the connection.
@@ -29,7 +34,7 @@ Received floodAndRead(const Socket& socket, milliseconds pause, std::size_t byte
   Received received;
   std::string buffer(bytes_per_read, '\0');
   for (;;) {
-    flood(socket);
+    if (received.error == 0) received.error = flood(socket);
     poll(nullptr, 0, static_cast<int>(pause.count()));
     const ssize_t size = recv(socket.fd(), buffer.data(), buffer.size(), MSG_DONTWAIT);
     if (size < 0 && errno == EAGAIN) continue;
@@ -80,7 +85,7 @@ TEST(OrderlyClose, UnreadBytesCauseNoReset) {
   client.start();
   ASSERT_TRUE(runUntil(io, [&] { return client.connected(); }));
   const Socket peer = vehicle.accept();
-  flood(peer);
+  EXPECT_EQ(flood(peer), 0);
   EXPECT_TRUE(client.write(kLast));
   client.close();
   auto heard = std::async(std::launch::async, [&] {
