@@ -21,8 +21,6 @@ constexpr double kMostYawRate_rad_s = M_PI;
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / M_PI; }
 
-double headingFromYaw_deg(double yaw_rad) { return wrapHeading_deg(90.0 - degrees(yaw_rad)); }
-
 /// Collects the first thing that is wrong with a command.
 class Check {
  public:
@@ -42,6 +40,16 @@ class Check {
     if (refusal_.empty()) refusal_ = std::move(text);
   }
 
+  /// From the vehicle's north, [0, 360).
+  double heading_deg(const std::string& field, double yaw_rad, NorthOffset north_offset_deg) {
+    finite(field.c_str(), yaw_rad);
+    if (!north_offset_deg) {
+      refuse(field + " is a heading, and no position of the vehicle is known yet to tell how its " +
+             "grid north lies");
+    }
+    return wrapHeading_deg(90.0 - degrees(yaw_rad) - north_offset_deg.value_or(0.0));
+  }
+
   Converted result(vehicle::Command command) const {
     if (refusal_.empty()) return command;
     return refusal_;
@@ -57,15 +65,8 @@ void convertHorizontal(const Behavior& behavior, NorthOffset north_offset_deg,
     case Behavior::HORIZONTAL_NONE:
       return;
     case Behavior::HORIZONTAL_HEADING:
-      check.finite("horizontal", behavior.horizontal);
-      if (!north_offset_deg) {
-        return check.refuse(
-            "horizontal is a heading, and no position of the vehicle is known yet to tell how its "
-            "grid north lies");
-      }
-      command.horizontal = {
-          BehaviorCommand::Horizontal::Heading,
-          wrapHeading_deg(headingFromYaw_deg(behavior.horizontal) - *north_offset_deg)};
+      command.horizontal = {BehaviorCommand::Horizontal::Heading,
+                            check.heading_deg("horizontal", behavior.horizontal, north_offset_deg)};
       return;
     case Behavior::HORIZONTAL_RUDDER:
       check.within("horizontal", behavior.horizontal, -kRightAngle, kRightAngle);
@@ -147,11 +148,11 @@ Converted toCommand(const Helm& helm) {
   return check.result(vehicle::HelmCommand{helm.thrust, 0.0 - helm.yaw_rate});
 }
 
-Converted toCommand(const Course& course) {
+Converted toCommand(const Course& course, NorthOffset north_offset_deg) {
   Check check;
-  check.finite("yaw", course.yaw);
+  const double heading_deg = check.heading_deg("yaw", course.yaw, north_offset_deg);
   check.within("speed", course.speed, 0.0, kMostSpeed_m_s);
-  return check.result(vehicle::CourseCommand{headingFromYaw_deg(course.yaw), course.speed});
+  return check.result(vehicle::CourseCommand{heading_deg, course.speed});
 }
 
 Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
@@ -164,8 +165,7 @@ Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
   check.finite("angular.y", velocity.angular.y);
   check.finite("angular.z", velocity.angular.z);
   const double thrust = std::clamp(velocity.linear.x / max_speed_m_s, -1.0, 1.0);
-  const double yaw_rate =
-      std::clamp(velocity.angular.z, -max_yaw_rate_rad_s, max_yaw_rate_rad_s);
+  const double yaw_rate = std::clamp(velocity.angular.z, -max_yaw_rate_rad_s, max_yaw_rate_rad_s);
   return check.result(vehicle::HelmCommand{thrust, 0.0 - yaw_rate});
 }
 

@@ -18,12 +18,12 @@ namespace frontseat_driver::ros_layer {
 /// accepted.
 using Converted = std::variant<vehicle::Command, std::string>;
 
-/// How far the north that a Sandshark's headings count from lies clockwise of true north, in
-/// degrees; empty while no position is known.
+/// How far the north that the vehicle's headings count from lies clockwise of true north, in
+/// degrees; empty while that takes a position and none is known.
 using NorthOffset = std::optional<double>;
 
-/// BPRMB. Yaw becomes a heading from the vehicle's north, radians become degrees; the vertical group
-/// is nautical on both sides.
+/// BPRMB. Yaw becomes a heading from the vehicle's north, radians become degrees; the vertical
+/// group is nautical on both sides.
 Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg);
 
 /// PYDIR. Left is port.
@@ -32,8 +32,8 @@ Converted toCommand(const Drive& drive);
 /// PYDEP. Counter-clockwise becomes clockwise.
 Converted toCommand(const Helm& helm);
 
-/// PYDEV. Yaw from east becomes a heading from true north.
-Converted toCommand(const Course& course);
+/// PYDEV. Yaw from east becomes a heading from the vehicle's north.
+Converted toCommand(const Course& course, NorthOffset north_offset_deg);
 
 /// PYDEP: linear.x over max_speed_m_s is thrust, angular.z the rate of turn, each clamped to its
 /// limit. The other axes are nothing a boat can follow; they must be finite.

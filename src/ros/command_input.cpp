@@ -57,18 +57,10 @@ ros::Subscriber CommandInput::subscribe(
   return node.subscribe(options);
 }
 
-// A heading is turned on the session's thread, where the newest position is.
 void CommandInput::takeBehavior(const ros::MessageEvent<const Behavior>& event) {
-  const auto behavior = event.getMessage();
-  const std::string too_old = tooOld(*behavior);
+  const std::string too_old = tooOld(*event.getMessage());
   if (!too_old.empty()) return refuse(topics::kCmdBehavior, too_old);
-  const Converted anywhere = toCommand(*behavior, 0.0);
-  if (const auto* refusal = std::get_if<std::string>(&anywhere)) {
-    return refuse(topics::kCmdBehavior, *refusal);
-  }
-  command(topics::kCmdBehavior, event.getReceiptTime(), [this, behavior] {
-    return toCommand(*behavior, publisher_.builder().northOffset_deg());
-  });
+  takeWithHeading(topics::kCmdBehavior, event);
 }
 
 void CommandInput::takeDrive(const ros::MessageEvent<const Drive>& event) {
@@ -80,13 +72,24 @@ void CommandInput::takeHelm(const ros::MessageEvent<const Helm>& event) {
 }
 
 void CommandInput::takeCourse(const ros::MessageEvent<const Course>& event) {
-  takeConverted(topics::kCmdCourse, event.getReceiptTime(), toCommand(*event.getMessage()));
+  takeWithHeading(topics::kCmdCourse, event);
 }
 
 void CommandInput::takeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event) {
-  takeConverted(topics::kCmdVel, event.getReceiptTime(),
-                toCommand(*event.getMessage(), parameters_.max_speed_m_s,
-                          parameters_.max_yaw_rate_rad_s));
+  takeConverted(
+      topics::kCmdVel, event.getReceiptTime(),
+      toCommand(*event.getMessage(), parameters_.max_speed_m_s, parameters_.max_yaw_rate_rad_s));
+}
+
+// A heading is turned on the session's thread, where the newest position is.
+template <class Message>
+void CommandInput::takeWithHeading(const char* topic,
+                                   const ros::MessageEvent<const Message>& event) {
+  const auto message = event.getMessage();
+  const Converted anywhere = toCommand(*message, 0.0);
+  if (const auto* refusal = std::get_if<std::string>(&anywhere)) return refuse(topic, *refusal);
+  command(topic, event.getReceiptTime(),
+          [this, message] { return toCommand(*message, publisher_.builder().northOffset_deg()); });
 }
 
 void CommandInput::takeConverted(const char* topic, const ros::Time& receipt,
@@ -120,11 +123,11 @@ void CommandInput::command(const char* topic, const ros::Time& receipt, Convert 
 
 void CommandInput::refuse(const char* topic, std::string refusal) {
   ++refusals_;
-  post(refused_, [this, topic, refusal = std::move(refusal)](const vehicle::Now& now,
-                                                             session::Output&) {
-    session_.countRefusedCommands(refusals_.exchange(0));
-    warn(topic, refusal, now);
-  });
+  post(refused_,
+       [this, topic, refusal = std::move(refusal)](const vehicle::Now& now, session::Output&) {
+         session_.countRefusedCommands(refusals_.exchange(0));
+         warn(topic, refusal, now);
+       });
 }
 
 std::string CommandInput::tooOld(const Behavior& behavior) const {

@@ -65,6 +65,8 @@ class CommandInput {
   void takeVelocity(const ros::MessageEvent<const geometry_msgs::Twist>& event);
   void takePayloadStatus(const ros::MessageEvent<const PayloadStatus>& event);
 
+  template <class Message>
+  void takeWithHeading(const char* topic, const ros::MessageEvent<const Message>& event);
   void takeConverted(const char* topic, const ros::Time& receipt, const Converted& converted);
   void command(const char* topic, const ros::Time& receipt, Convert convert);
   void refuse(const char* topic, std::string refusal);

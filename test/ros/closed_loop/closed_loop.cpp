@@ -157,12 +157,15 @@ void ClosedLoop::disconnect(sim::ClientId client) {
 // --- What a user does ---
 
 ros_layer::Converted ClosedLoop::convert(const Wanted& wanted) const {
+  const auto north_offset_deg = builder_.northOffset_deg();
   if (const auto* behavior = std::get_if<Behavior>(&wanted)) {
-    return ros_layer::toCommand(*behavior, builder_.northOffset_deg());
+    return ros_layer::toCommand(*behavior, north_offset_deg);
   }
   if (const auto* drive = std::get_if<Drive>(&wanted)) return ros_layer::toCommand(*drive);
   if (const auto* helm = std::get_if<Helm>(&wanted)) return ros_layer::toCommand(*helm);
-  if (const auto* course = std::get_if<Course>(&wanted)) return ros_layer::toCommand(*course);
+  if (const auto* course = std::get_if<Course>(&wanted)) {
+    return ros_layer::toCommand(*course, north_offset_deg);
+  }
   return ros_layer::toCommand(std::get<geometry_msgs::Twist>(wanted), parameters_.max_speed_m_s,
                               parameters_.max_yaw_rate_rad_s);
 }
