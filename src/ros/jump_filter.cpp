@@ -12,8 +12,7 @@ bool JumpFilter::accept(const vehicle::Position& position, vehicle::SteadyTime a
     const double elapsed_s = std::chrono::duration<double>(arrival - last_arrival_).count();
     const double moved_m = distance_m(*last_, position);
     const bool jumped = moved_m > max_speed_m_s_ * std::max(elapsed_s, kLeastElapsed_s);
-    in_a_row_ = jumped ? in_a_row_ + 1 : 0;
-    if (jumped && in_a_row_ < kBelieved) {
+    if (jumped && ++in_a_row_ < kBelieved) {
       ++jumps_;
       latest_jump_m_ = moved_m;
       return false;

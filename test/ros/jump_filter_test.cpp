@@ -66,6 +66,13 @@ TEST(JumpFilter, BelievesTheFifthInARow) {
   EXPECT_TRUE(filter.accept(north(5006), at(1200ms)));
 }
 
+TEST(JumpFilter, CountsARowAnewAfterTheFifth) {
+  JumpFilter filter(kMaxSpeed);
+  filter.accept(north(0), at(0s));
+  for (int i = 1; i <= 5; ++i) filter.accept(north(5000), at(i * 10ms));
+  EXPECT_FALSE(filter.accept(north(0), at(100ms)));
+}
+
 TEST(JumpFilter, CountsARowAnewAfterAGoodPosition) {
   JumpFilter filter(kMaxSpeed);
   filter.accept(north(0), at(0s));

@@ -500,6 +500,15 @@ TEST_F(Builder, AGridHeadingUsesTheLastPosition) {
   EXPECT_NEAR(yaw_deg(shark_.imu()->orientation), 1.42204476543, 1e-7);
 }
 
+// A datum on the central meridian, where the convergence is 0, is not where the vehicle is.
+TEST_F(Builder, AGridHeadingUsesThePositionRatherThanTheDatum) {
+  Parameters parameters = parametersFor(Dialect::Sandshark);
+  parameters.datum = Position{42.36, -69.0};
+  MessageBuilder builder(parameters);
+  EXPECT_NEAR(yaw_deg(odometryOf(builder, navigationAt(kHarbor), at(0s)).pose.pose.orientation),
+              1.42204476543, 1e-7);
+}
+
 TEST_F(Builder, AGridHeadingUsesTheDatumBeforeAnyPosition) {
   Parameters parameters = parametersFor(Dialect::Sandshark);
   parameters.datum = kHarbor;
