@@ -27,7 +27,8 @@ class Check {
   void within(const char* field, double value, double low, double high) {
     if (value >= low && value <= high) return;  // false for NaN
     char text[160];
-    std::snprintf(text, sizeof text, "%s is %.10g; %.10g..%.10g is accepted", field, value, low, high);
+    std::snprintf(text, sizeof text, "%s is %.10g; %.10g..%.10g is accepted", field, value, low,
+                  high);
     refuse(text);
   }
 
