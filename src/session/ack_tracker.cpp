@@ -18,12 +18,23 @@ bool sameTime(const std::optional<vehicle::TimeOfDay>& a,
 }  // namespace
 
 void AckTracker::sent(const Sent& sentence) {
-  if (outstanding_.size() == kMost) outstanding_.pop_front();
+  if (outstanding_.size() == kMost) {
+    const auto unwaited =
+        std::find_if(outstanding_.begin(), outstanding_.end(),
+                     [](const Sent& sent) { return sent.request == kNoRequest; });
+    outstanding_.erase(unwaited == outstanding_.end() ? outstanding_.begin() : unwaited);
+  }
   outstanding_.push_back(sentence);
 }
 
+void AckTracker::forget(RequestId request) {
+  outstanding_.erase(std::remove_if(outstanding_.begin(), outstanding_.end(),
+                                    [&](const Sent& sent) { return sent.request == request; }),
+                     outstanding_.end());
+}
+
 std::optional<AckTracker::Sent> AckTracker::match(const Acknowledgement& ack, SteadyTime now) {
-  while (!outstanding_.empty() && now - outstanding_.front().at > kForgotten) {
+  while (!outstanding_.empty() && now - outstanding_.front().at > forgotten_) {
     outstanding_.pop_front();
   }
   const auto found =

@@ -119,6 +119,14 @@ nmea::SentenceWriter commandSentence(const vehicle::Command& command, const Comm
   return std::visit(Sentence{format, present, time}, command);
 }
 
+bool canBeSent(const vehicle::Command& command, const CommandFormat& format,
+               const PresentState& present) {
+  const auto* behavior = std::get_if<BehaviorCommand>(&command);
+  if (!behavior || !format.fill_behavior_fields) return true;
+  const BehaviorCommand wanted = filled(*behavior, present);
+  return wanted.horizontal && wanted.vertical && wanted.speed;
+}
+
 nmea::SentenceWriter zeroThrust() {
   protocol::kingfisher::MotorThrust thrust;
   thrust.port_pct = 0.0;

@@ -59,6 +59,7 @@ EffectMonitor::Target EffectMonitor::targetOf(const vehicle::Command& command) {
     // A boat that does not move need not turn to its course.
     if (course->speed_m_s > kMoving_m_s) target.heading_deg = course->heading_deg;
     target.speed_m_s = course->speed_m_s;
+    target.must_move = course->speed_m_s > kSpeedReached_m_s;
   } else if (const auto* drive = std::get_if<vehicle::DriveCommand>(&command)) {
     target.must_move = std::abs(drive->port + drive->starboard) / 2.0 > kMovingThrust;
   } else if (const auto* helm = std::get_if<vehicle::HelmCommand>(&command)) {
@@ -81,10 +82,10 @@ void EffectMonitor::commanded(const vehicle::Command& command, const PresentStat
                               SteadyTime now) {
   const Target target = targetOf(command);
   if (target_ && same(*target_, target)) return;
+  // A target that keeps moving gives a vehicle that answers nothing no more time.
+  if (!target_) answered_at_ = now;
   target_ = target;
   baseline_ = errors(present);
-  answered_at_ = now;
-  complaint_.clear();
 }
 
 void EffectMonitor::clear() {
@@ -99,7 +100,8 @@ EffectMonitor::Errors EffectMonitor::errors(const PresentState& present) const {
   }
   errors.depth_m = difference(target_->depth_m, present.depth_m);
   errors.speed_m_s = difference(target_->speed_m_s, present.speed_m_s);
-  if (target_->must_move && present.speed_m_s && *present.speed_m_s < kMoving_m_s) {
+  // A Heron that stands still tells no velocity.
+  if (target_->must_move && present.speed_m_s.value_or(0.0) < kMoving_m_s) {
     errors.speed_m_s = kSpeedReached_m_s + kSpeedNearer_m_s;  // not reached until it moves
   }
   return errors;

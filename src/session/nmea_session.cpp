@@ -23,16 +23,19 @@ constexpr std::string_view kAll = "ALL";
 constexpr const char* kNoConnection = "there is no connection to the vehicle";
 constexpr const char* kLeaving = "the driver is stopping";
 constexpr const char* kRecord = "a record is being played";
+constexpr const char* kUnfilled =
+    "what it leaves alone of heading, depth and speed is not known, and parameter "
+    "fill_behavior_fields needs it";
 
 // Spacing longer than this must not keep the last zero thrust from being sent: see driver::Driver.
 constexpr auto kLastWordsWait = 30ms;
 
 // Acknowledgements first, so that the other requests are acknowledged (SPI 0.1, section 7.1).
-std::vector<std::string> logRequests(const NmeaOptions& options) {
-  std::vector<std::string> requests;
-  if (options.use_acks) requests.emplace_back(kAck);
+std::vector<LogSwitch> logRequests(const NmeaOptions& options) {
+  std::vector<LogSwitch> requests;
+  if (options.use_acks) requests.push_back({std::string{kAck}, true});
   for (const std::string& sentence : options.log_sentences) {
-    if (sentence != kAck) requests.push_back(sentence);
+    if (sentence != kAck) requests.push_back({sentence, true});
   }
   return requests;
 }
@@ -81,6 +84,7 @@ NmeaSession::NmeaSession(NmeaOptions options)
       permission_(options_.control_hook, options_.commands_enabled),
       slot_(options_.command_timeout, periodOf(options_.command_rate_hz)),
       requests_(options_.ack_timeout),
+      acks_(std::max<std::chrono::nanoseconds>(10s, options_.ack_timeout)),
       effect_(options_.effect_timeout) {}
 
 // --- The connection ---
@@ -252,18 +256,13 @@ std::string NmeaSession::refusalOf(const Now& now, const vehicle::Command& comma
   const ControlState control = permission_.state();
   if (!control.reason.empty()) return std::string{control.reason};
   if (dialectOf(command) != *dialect_) return otherDialect(dialectOf(command), *dialect_);
-  const PresentState known = present(now);
-  const bool known_all = known.heading_deg && known.depth_m && known.speed_m_s;
-  if (!isBoat() && options_.format.fill_behavior_fields && !known_all) {
-    return "the vehicle's present heading, depth and speed are not known, and parameter "
-           "fill_behavior_fields needs them";
-  }
+  if (!canBeSent(command, options_.format, present(now))) return kUnfilled;
   return {};
 }
 
 // What a callback that was held up brings is older than it looks.
 std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
-  if (received < permitted_since_) return "it is from before the vehicle could be commanded";
+  if (received < permitted_since_) return "it is from before the last stop, abort or permission";
   if (now.steady - received >= options_.command_timeout) {
     return "it waited in this computer for longer than command_timeout";
   }
@@ -272,6 +271,7 @@ std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
 
 void NmeaSession::stop(const Now& now, Output& out) {
   requests_.failUnsentBehaviors("commanding was stopped before it could be sent");
+  permitted_since_ = now.steady;
   endCommanding(now, out);
   zero_due_ = connected_ && isBoat() && !options_.listen_only && !hasLeft();
 }
@@ -307,10 +307,15 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
   }
   const std::string refusal = refusalOf(request, now);
   const auto* log = std::get_if<LogSwitch>(&request);
-  if (log && isLogName(log->sentence) && !isBoat()) remember(*log);
-  if (!refusal.empty()) return respond({false, refusal});
+  const bool remembered = log && isLogName(log->sentence) && !isBoat();
+  if (remembered) remember(*log);
+  if (!refusal.empty()) {
+    const bool later = remembered && !connected_;
+    return respond({false, later ? refusal + "; it will be asked for when there is" : refusal});
+  }
   if (std::holds_alternative<AbortRequest>(request)) {
     requests_.failUnsentBehaviors("the mission was aborted before it could be sent");
+    permitted_since_ = now.steady;
     endCommanding(now, out);
   }
   requests_.add(std::move(request), std::move(note), std::move(respond), now.steady);
@@ -328,8 +333,11 @@ std::string NmeaSession::refusalOf(const Request& request, const Now& now) const
   }
   if (!connected_) return kNoConnection;
   if (options_.listen_only) return kRecord;
-  if (requests_.full()) return "too many requests are waiting for the vehicle";
+  const bool abort = std::holds_alternative<AbortRequest>(request);
+  if (requests_.full() && !abort) return "too many requests are waiting for the vehicle";
   if (std::holds_alternative<RawSentence>(request)) return {};
+  // A boat ignores an abort, so it may go out before the dialect is known.
+  if (!dialect_ && abort) return {};
   if (!dialect_) return "the vehicle has not shown its dialect yet; parameter dialect sets it";
   if (isBoat()) return otherDialect(Dialect::Sandshark, *dialect_);
   if (const auto* behavior = std::get_if<vehicle::BehaviorCommand>(&request)) {
@@ -338,19 +346,23 @@ std::string NmeaSession::refusalOf(const Request& request, const Now& now) const
   return {};
 }
 
-// A handshake under way starts again: asking twice does no harm, leaving one out would.
+// A handshake under way starts again: asking twice does no harm, leaving one out would. What is off
+// need not be said on a new connection, unless ALL turned it on before.
 void NmeaSession::remember(const LogSwitch& log) {
   const bool all_asked = next_log_request_ == log_requests_.size();
-  const bool nothing_more = log.sentence == kAll && !log.enable;
-  const auto forgotten = [&](const std::string& sentence) {
-    return sentence == log.sentence || (nothing_more && sentence != kAck);
+  const bool about_all = log.sentence == kAll;
+  const auto replaced = [&](const LogSwitch& one) {
+    return one.sentence == log.sentence || (about_all && one.sentence != kAck);
   };
-  log_requests_.erase(std::remove_if(log_requests_.begin(), log_requests_.end(), forgotten),
+  log_requests_.erase(std::remove_if(log_requests_.begin(), log_requests_.end(), replaced),
                       log_requests_.end());
+  const bool all_on = std::any_of(log_requests_.begin(), log_requests_.end(),
+                                  [](const LogSwitch& one) { return one.sentence == kAll; });
   if (log.sentence == kAck) use_acks_ = log.enable;
-  if (log.enable) {
-    log_requests_.insert(log.sentence == kAck ? log_requests_.begin() : log_requests_.end(),
-                         log.sentence);
+  if (log.sentence == kAck && log.enable) {
+    log_requests_.insert(log_requests_.begin(), log);
+  } else if (log.enable || all_on) {
+    log_requests_.push_back(log);
   }
   next_log_request_ = all_asked ? log_requests_.size() : 0;
 }
@@ -369,7 +381,8 @@ std::string NmeaSession::setPayloadStatus(const Now& now, const vehicle::Payload
            " characters; a sentence takes 200 bytes in all";
   }
   payload_status_ = {status.ok, text->text};
-  if (status_due_ != SteadyTime::max()) status_due_ = now.steady;
+  const bool speaks = dialect_ == Dialect::Sandshark && !options_.listen_only && !leaving_;
+  if (speaks) status_due_ = now.steady;
   return {};
 }
 
@@ -378,7 +391,7 @@ std::string NmeaSession::setPayloadStatus(const Now& now, const vehicle::Payload
 void NmeaSession::step(const Now& now, Output& out) {
   if (!reported_control_) reportControl(now, out);
   if (slot_.stale(now.steady)) endCommanding(now, out);
-  requests_.expire(now.steady);
+  for (const RequestQueue::Id id : requests_.expire(now.steady)) acks_.forget(id);
   if (connected_ && now.steady >= next_send_) sendWhatIsDue(now, out);
 }
 
@@ -402,6 +415,14 @@ bool NmeaSession::sendUrgent(const Now& now, Output& out) {
 bool NmeaSession::sendCommand(const Now& now, Output& out) {
   const vehicle::Command* command = slot_.due(now.steady);
   if (!command || !permission_.granted()) return false;
+  if (out.congested()) {
+    slot_.putOff(now.steady + sendSpacing());
+    return false;
+  }
+  if (!canBeSent(*command, options_.format, present(now))) {
+    endCommanding(now, out);
+    return false;
+  }
   command_was_last_ = true;
   const auto time = vehicle::timeOfDay(now.utc);
   if (!send(now, commandSentence(*command, options_.format, present(now), time), out)) return true;
@@ -428,10 +449,17 @@ bool NmeaSession::sendHandshake(const Now& now, Output& out) {
     version.version = options_.interface_version;
     version_sent_ = send(now, protocol::write(version), out);
   } else if (next_log_request_ < log_requests_.size()) {
+    const LogSwitch& log = log_requests_[next_log_request_];
     protocol::bluefin::LogRequest request;
-    request.sentence = log_requests_[next_log_request_];
-    request.on = true;
-    if (send(now, protocol::write(request), out)) ++next_log_request_;
+    request.sentence = log.sentence;
+    request.on = log.enable;
+    if (send(now, protocol::write(request), out)) {
+      ++next_log_request_;
+      if (isAcknowledged(log)) {
+        acks_.sent({protocol::bluefin::LogRequest::kFormatter, std::nullopt,
+                    AckTracker::kNoRequest, now.steady});
+      }
+    }
   }
   const bool more = !version_sent_ || (dialect_ && next_log_request_ < log_requests_.size());
   if (!more) handshake_due_ = SteadyTime::max();
@@ -439,15 +467,26 @@ bool NmeaSession::sendHandshake(const Now& now, Output& out) {
 }
 
 bool NmeaSession::sendRequest(const Now& now, const RequestQueue::Open& open, Output& out) {
+  const auto* behavior = std::get_if<vehicle::BehaviorCommand>(&open.request);
+  if (behavior && !canBeSent(*behavior, options_.format, present(now))) {
+    requests_.failUnsentBehaviors(kUnfilled);
+    return false;
+  }
   if (!send(now, sentenceFor(open.request, now), out)) return true;
   const bool raw = std::holds_alternative<RawSentence>(open.request);
-  const bool has_time = !std::holds_alternative<LogSwitch>(open.request);
-  if (!raw && use_acks_) {
-    const auto time = has_time ? std::optional{vehicle::timeOfDay(now.utc)} : std::nullopt;
+  const auto* log = std::get_if<LogSwitch>(&open.request);
+  const bool acknowledged = log ? isAcknowledged(*log) : use_acks_ && !raw;
+  if (acknowledged) {
+    const auto time = !log ? std::optional{vehicle::timeOfDay(now.utc)} : std::nullopt;
     acks_.sent({formatterOf(open.request), time, open.id, now.steady});
   }
-  requests_.sent(open.id, now.steady, use_acks_);
+  requests_.sent(open.id, now.steady, acknowledged);
   return true;
+}
+
+// A field Sandshark does not acknowledge that it is to acknowledge.
+bool NmeaSession::isAcknowledged(const LogSwitch& log) const {
+  return use_acks_ && log.sentence != kAck;
 }
 
 nmea::SentenceWriter NmeaSession::sentenceFor(const Request& request, const Now& now) const {
@@ -476,7 +515,8 @@ bool NmeaSession::sendStatus(const Now& now, Output& out) {
   status.ok = payload_status_.ok;
   status.message = payload_status_.message;
   if (!send(now, protocol::write(status), out)) return true;
-  status_due_ = now.steady + periodOf(options_.status_rate_hz);
+  const bool again = options_.status_rate_hz > 0.0;
+  status_due_ = again ? now.steady + periodOf(options_.status_rate_hz) : SteadyTime::max();
   if (use_acks_) {
     acks_.sent({protocol::bluefin::PayloadStatus::kFormatter, status.sent_at,
                 AckTracker::kNoRequest, now.steady});

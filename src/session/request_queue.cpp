@@ -71,7 +71,7 @@ void RequestQueue::sent(Id id, SteadyTime now, bool acknowledged) {
   if (std::holds_alternative<RawSentence>(open->request)) {
     answer(open, true, "sent");
   } else if (!acknowledged) {
-    answer(open, true, "sent; acknowledgements are off (parameter use_acks)");
+    answer(open, true, "sent; the vehicle is not asked to acknowledge it");
   }
 }
 
@@ -86,7 +86,8 @@ void RequestQueue::take(Id id, const Acknowledgement& ack) {
   answer(open, ack.status == Acknowledgement::Status::Done, finalWords(ack));
 }
 
-void RequestQueue::expire(SteadyTime now) {
+std::vector<RequestQueue::Id> RequestQueue::expire(SteadyTime now) {
+  std::vector<Id> expired;
   for (auto open = open_.begin(); open != open_.end();) {
     const auto current = open++;
     if (now < current->deadline) continue;
@@ -94,8 +95,10 @@ void RequestQueue::expire(SteadyTime now) {
     const char* what = !current->sent     ? "it could not be sent within "
                        : current->pending ? "the vehicle is still working on it after "
                                           : "sent, but the vehicle did not acknowledge it within ";
+    expired.push_back(current->id);
     answer(current, false, what + limit);
   }
+  return expired;
 }
 
 void RequestQueue::failAll(const std::string& reason) {

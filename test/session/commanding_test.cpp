@@ -384,13 +384,13 @@ TEST_F(Commanding, ACommandFromBeforeThePermissionIsRefused) {
   connect();
   pass(100ms);
   EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, before, out_),
-            "it is from before the vehicle could be commanded");
+            "it is from before the last stop, abort or permission");
   gate(false);
   const SteadyTime closed = now().steady;
   pass(10ms);
   gate(true);
   EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, closed, out_),
-            "it is from before the vehicle could be commanded");
+            "it is from before the last stop, abort or permission");
   pass(10s);
   EXPECT_THAT(out_.sent, IsEmpty());
 }
@@ -414,6 +414,31 @@ TEST_F(Commanding, LeavingDoesNotWaitForALongSpacing) {
   pass(30ms);
   EXPECT_TRUE(session_->hasLeft());
   EXPECT_EQ(out_.sent.back().sentence, kZero);
+}
+
+TEST_F(Commanding, ACommandFromBeforeAStopOrAnAbortIsRefused) {
+  startKingfisher();
+  const SteadyTime before = now().steady;
+  pass(10ms);
+  stop();
+  EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{1.0, 1.0}, before, out_),
+            "it is from before the last stop, abort or permission");
+  startSandshark();
+  const SteadyTime before_abort = now().steady;
+  pass(10ms);
+  request(AbortRequest{"leak", true});
+  EXPECT_EQ(session_->command(now(), heading(90.0), before_abort, out_),
+            "it is from before the last stop, abort or permission");
+}
+
+TEST_F(Commanding, ALinkThatHoldsBytesBackGetsNoMoreCommandsButAStop) {
+  startKingfisher();
+  out_.link_is_full = true;
+  command(vehicle::DriveCommand{0.5, 0.5});
+  pass(500ms);
+  EXPECT_THAT(out_.sent, IsEmpty());
+  stop();
+  EXPECT_THAT(out_.sentences(), ElementsAre(kZero));
 }
 
 // --- Requests and their acknowledgements ---
@@ -548,13 +573,71 @@ TEST_F(Commanding, LogRequestsAreRememberedAcrossReconnects) {
   disconnect();
   EXPECT_EQ(answers_[0].message, "the connection was lost before the vehicle answered");
   request(LogSwitch{"DVL", true});
-  EXPECT_EQ(answers_[1].message, "there is no connection to the vehicle");
+  EXPECT_EQ(answers_[1].message, "there is no connection to the vehicle; it will be asked for when there is");
   request(LogSwitch{"CTD", false});
   out_.sent.clear();
   connect();
   pass(1s);
   EXPECT_THAT(out_.sentences(), ElementsAre(StartsWith("$BPVER"), StartsWith("$BPLOG,ACK,ON"),
                                             StartsWith("$BPLOG,DVL,ON")));
+}
+
+TEST_F(Commanding, WhatAllTurnedOnStaysOffOnceItIsTurnedOff) {
+  startSandshark();
+  request(LogSwitch{"ALL", true});
+  request(LogSwitch{"DVL", false});
+  disconnect();
+  out_.sent.clear();
+  connect();
+  pass(1s);
+  EXPECT_THAT(out_.sentences(),
+              ElementsAre(StartsWith("$BPVER"), StartsWith("$BPLOG,ACK,ON"),
+                          StartsWith("$BPLOG,ALL,ON"), StartsWith("$BPLOG,DVL,OFF")));
+}
+
+TEST_F(Commanding, LogRequestsOfTheStartAreNotTakenForTheUsers) {
+  NmeaOptions options = withDialect(Dialect::Sandshark);
+  options.log_sentences = {"NVG"};
+  start(options);
+  pass(1s);
+  request(LogSwitch{"DVL", true});
+  acknowledge("LOG", 1, "no NVG here");  // of the start
+  EXPECT_THAT(answers_, IsEmpty());
+  acknowledge("LOG", 2, "DVL on");
+  ASSERT_THAT(answers_, SizeIs(1));
+  EXPECT_EQ(answers_[0].message, "DVL on");
+}
+
+TEST_F(Commanding, ALostAcknowledgementDoesNotEatTheNextOne) {
+  startSandshark();
+  request(LogSwitch{"CTD", true});
+  pass(3s);
+  EXPECT_FALSE(answers_[0].success);
+  request(LogSwitch{"DVL", true});
+  acknowledge("LOG", 2, "DVL on");
+  ASSERT_THAT(answers_, SizeIs(2));
+  EXPECT_EQ(answers_[1].message, "DVL on");
+}
+
+TEST_F(Commanding, AcknowledgingItselfIsNotWaitedFor) {
+  startSandshark();
+  request(LogSwitch{"ACK", true});
+  ASSERT_THAT(answers_, SizeIs(1));
+  EXPECT_TRUE(answers_[0].success);
+}
+
+TEST_F(Commanding, AnAbortGoesOutHoweverManyRequestsWait) {
+  startSandshark();
+  for (int i = 0; i < 100; ++i) request(LogSwitch{"CTD", true});
+  request(AbortRequest{"leak", true});
+  pass(60ms);
+  EXPECT_THAT(out_.sentences(), testing::Contains(StartsWith("$BPABT")));
+}
+
+TEST_F(Commanding, AnAbortNeedsNotKnowTheDialect) {
+  start(quiet());
+  request(AbortRequest{"leak", true});
+  EXPECT_THAT(out_.sentences(), ElementsAre(StartsWith("$BPABT")));
 }
 
 TEST_F(Commanding, ALogNameMustBeOne) {
@@ -610,6 +693,14 @@ TEST_F(Commanding, PayloadStatusBeatsAtItsRate) {
   EXPECT_THAT(session_->setPayloadStatus(now(), {true, "a,b"}), StartsWith("message holds"));
   EXPECT_THAT(session_->setPayloadStatus(now(), {true, std::string(300, 'x')}),
               HasSubstr("300 characters"));
+}
+
+TEST_F(Commanding, PayloadStatusWithoutAHeartbeatIsSentOnce) {
+  startSandshark();
+  session_->setPayloadStatus(now(), {false, "leak"});
+  session_->step(now(), out_);
+  pass(10s);
+  EXPECT_THAT(out_.sentences(), ElementsAre(HasSubstr(",0,leak*")));
 }
 
 // --- Effect ---
@@ -675,6 +766,28 @@ TEST_F(Commanding, WhatIsCommandedCanBeSeen) {
   EXPECT_EQ(std::get<vehicle::DriveCommand>(*session_->commanded()).port, 0.5);
   pass(2s);
   EXPECT_FALSE(session_->commanded());
+}
+
+TEST_F(Commanding, ABoatThatTellsNoVelocityUnderThrustIsNoticed) {
+  startKingfisher();
+  for (auto passed = 0ms; passed < 11s; passed += 100ms) {
+    hear("CPNVR,120000.000,nan,nan,0,0,0,0");
+    command(vehicle::DriveCommand{1.0, 1.0});
+    pass(100ms);
+  }
+  EXPECT_THAT(session_->effectComplaint(), HasSubstr("the vehicle does not move"));
+}
+
+TEST_F(Commanding, AMovingTargetDoesNotHideAJammedRudder) {
+  startSandshark();
+  double target_deg = 90.0;
+  for (auto passed = 0ms; passed < 15s; passed += 100ms) {
+    hear("BFNVG,120000.000,,,,,1,,0,270,0,0,");
+    if (passed % 2000 == 0ms) target_deg += 6.0;
+    command(heading(target_deg));
+    pass(100ms);
+  }
+  EXPECT_THAT(session_->effectComplaint(), HasSubstr("270.0 deg measured"));
 }
 
 // --- Formats, by hand from the documents ---
@@ -756,6 +869,23 @@ TEST(SpeedTable, IsInterpolatedAndNeverLeft) {
   nmea::SentenceWriter writer =
       commandSentence(behavior({}, {}, {{S::MetresPerSecond, 1.0}}), format, {}, 12h);
   EXPECT_EQ(writer.finish(), "$BPRMB,120000.000,,,,600.000,0,*66\r\n");
+}
+
+TEST_F(Commanding, NoEmptyFieldGoesOutWhenThePresentIsLost) {
+  NmeaOptions options = withDialect(Dialect::Sandshark);
+  options.format.fill_behavior_fields = true;
+  startSandshark(options);
+  EXPECT_EQ(command(behavior({{H::Heading, 1.0}}, {{V::Depth, 2.0}}, {{S::Rpm, 3.0}})), "");
+  stop();
+  pass(100ms);
+  hear("BFNVG,120000.000,,,,,1,,3.5,45,0,0,");
+  hear("BFNVR,120000.000,0.3,0.4,0,0,0,0");
+  EXPECT_EQ(command(heading(90.0)), "");
+  pass(60ms);
+  out_.sent.clear();
+  hear("BFNVR,120000.000,nan,nan,0,0,0,0");
+  pass(900ms);
+  EXPECT_THAT(out_.sent, IsEmpty());
 }
 
 TEST_F(Commanding, FillingNeedsToKnowThePresent) {

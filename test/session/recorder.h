@@ -21,6 +21,7 @@ class Recorder : public Output {
     sent.push_back({now.steady, std::string{sentence}});
     return true;
   }
+  bool congested() const override { return link_is_full; }
   void heard(const Now&, std::string_view line) override { lines.emplace_back(line); }
   void event(const Now&, const vehicle::Event& event) override {
     events.push_back(event);
@@ -56,6 +57,7 @@ class Recorder : public Output {
   }
 
   bool link_takes = true;
+  bool link_is_full = false;
   std::vector<Sent> sent;
   std::vector<std::string> lines;
   std::vector<vehicle::Event> events;  ///< their texts do not outlive the call

@@ -17,7 +17,8 @@ namespace frontseat_driver::session {
 /// Matches by name and by the time the sentence carried; BPLOG carries none, so there only the order
 /// tells. Any sentence may come in between, acknowledgements may be lost, late, pending first, or
 /// come twice: each sent sentence is found at most once with a final status, and one that is never
-/// answered is forgotten after kForgotten. Bounded: the oldest goes when there are kMost.
+/// answered is forgotten in time. Bounded: when there are kMost, the oldest that nobody waits for
+/// goes.
 class AckTracker {
  public:
   using SteadyTime = vehicle::SteadyTime;
@@ -25,7 +26,9 @@ class AckTracker {
 
   static constexpr RequestId kNoRequest = 0;  ///< a repeated command that nobody waits for
   static constexpr std::size_t kMost = 128;
-  static constexpr std::chrono::seconds kForgotten{10};
+
+  /// A sentence that has not been acknowledged after `forgotten` never will be.
+  explicit AckTracker(std::chrono::nanoseconds forgotten) : forgotten_(forgotten) {}
 
   struct Sent {
     std::string_view formatter;  ///< "RMB"; static storage
@@ -40,12 +43,17 @@ class AckTracker {
   /// does not.
   std::optional<Sent> match(const vehicle::Acknowledgement& ack, SteadyTime now);
 
+  /// Nobody waits for this request any more, and nothing acknowledged it: what the vehicle
+  /// acknowledges next is for another.
+  void forget(RequestId request);
+
   /// The connection is gone, and every answer with it.
   void clear() { outstanding_.clear(); }
 
   std::size_t outstanding() const { return outstanding_.size(); }
 
  private:
+  std::chrono::nanoseconds forgotten_;
   std::deque<Sent> outstanding_;  ///< oldest first
 };
 

@@ -38,6 +38,11 @@ protocol::Dialect dialectOf(const vehicle::Command& command);
 nmea::SentenceWriter commandSentence(const vehicle::Command& command, const CommandFormat& format,
                                      const PresentState& present, nmea::TimeOfDay time);
 
+/// False while a behavior would go out with an empty field although the format fills them, because
+/// the vehicle's present state is not known: a frontseat that cannot take one would die of it.
+bool canBeSent(const vehicle::Command& command, const CommandFormat& format,
+               const PresentState& present);
+
 /// No thrust on either motor: how commanding a Kingfisher ends.
 nmea::SentenceWriter zeroThrust();
 

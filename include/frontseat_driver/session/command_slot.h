@@ -31,6 +31,9 @@ class CommandSlot {
   /// The due command went out at `now`: it is due again one period later.
   void sent(SteadyTime now);
 
+  /// The due command could not go out now: it is due again then.
+  void putOff(SteadyTime until) { due_at_ = until; }
+
   /// There is a command, and it has outlived its time-out.
   bool stale(SteadyTime now) const { return command_ && now >= stale_at_; }
 

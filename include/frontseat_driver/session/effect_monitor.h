@@ -22,7 +22,8 @@ class EffectMonitor {
 
   explicit EffectMonitor(std::chrono::nanoseconds timeout) : timeout_(timeout) {}
 
-  /// The command that is being sent. A new target is given the whole time-out again.
+  /// The command that is being sent. The time-out begins with the first one, and again whenever the
+  /// vehicle answers.
   void commanded(const vehicle::Command& command, const PresentState& present, SteadyTime now);
 
   void clear();
@@ -38,7 +39,7 @@ class EffectMonitor {
     std::optional<double> heading_deg;
     std::optional<double> depth_m;
     std::optional<double> speed_m_s;
-    bool must_move = false;  ///< thrust without a speed of its own
+    bool must_move = false;  ///< a boat under thrust
   };
   struct Errors {
     std::optional<double> heading_deg;

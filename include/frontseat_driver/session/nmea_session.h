@@ -151,6 +151,7 @@ class NmeaSession : public Session {
   bool sendRequest(const Now& now, const RequestQueue::Open& open, Output& out);
   bool sendStatus(const Now& now, Output& out);
   bool send(const Now& now, nmea::SentenceWriter sentence, Output& out);
+  bool isAcknowledged(const LogSwitch& log) const;
   nmea::SentenceWriter sentenceFor(const Request& request, const Now& now) const;
 
   void reportControl(const Now& now, Output& out);
@@ -159,7 +160,7 @@ class NmeaSession : public Session {
   std::chrono::milliseconds sendSpacing() const;
 
   const NmeaOptions options_;
-  std::vector<std::string> log_requests_;  ///< in the order they are sent, ACK first
+  std::vector<LogSwitch> log_requests_;  ///< in the order they are sent, ACK first
   bool use_acks_;
 
   nmea::Framer framer_;
@@ -178,7 +179,7 @@ class NmeaSession : public Session {
   SteadyTime next_send_{};  ///< when send_spacing allows the next sentence
 
   bool permitted_ = false;
-  SteadyTime permitted_since_{};  ///< a command must not be older
+  SteadyTime permitted_since_{};  ///< or stopped, or aborted: a command must not be older
 
   CommandSlot slot_;
   bool zero_due_ = false;          ///< a Kingfisher is to hear zero thrust

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "frontseat_driver/vehicle/clock.h"
 #include "frontseat_driver/vehicle/command.h"
@@ -82,8 +83,8 @@ class RequestQueue {
 
   void take(Id id, const vehicle::Acknowledgement& ack);
 
-  /// Answers what is past its deadline.
-  void expire(SteadyTime now);
+  /// Answers what is past its deadline, and tells which.
+  std::vector<Id> expire(SteadyTime now);
 
   void failAll(const std::string& reason);
 

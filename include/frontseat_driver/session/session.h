@@ -19,6 +19,9 @@ class Output {
   /// Bytes for the vehicle, one sentence with its line end; false if the link did not take them.
   virtual bool send(const Now& now, std::string_view sentence) = 0;
 
+  /// The link has not got rid of what it was given before: another command would only queue up.
+  virtual bool congested() const { return false; }
+
   /// A complete line from the vehicle that starts with `$`, without its line end, not yet checked.
   virtual void heard(const Now& now, std::string_view line) = 0;
 
