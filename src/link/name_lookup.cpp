@@ -56,7 +56,8 @@ NameLookup::Result lookUp(const std::string& host, std::uint16_t port) {
 
 }  // namespace
 
-NameLookup::NameLookup(boost::asio::io_context& io, std::string host, std::uint16_t port, Done done)
+NameLookup::NameLookup(boost::asio::io_context& io, const std::string& host, std::uint16_t port,
+                       Done done)
     : shared_(std::make_shared<Shared>()) {
   shared_->io = &io;
   shared_->done = std::move(done);

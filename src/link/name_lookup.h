@@ -23,7 +23,7 @@ class NameLookup {
   using Done = std::function<void(Result)>;
 
   /// Begins at once; `done` is called once, from the io_context.
-  NameLookup(boost::asio::io_context& io, std::string host, std::uint16_t port, Done done);
+  NameLookup(boost::asio::io_context& io, const std::string& host, std::uint16_t port, Done done);
 
   /// A look-up that is not done is left behind; `done` is not called any more.
   ~NameLookup();

@@ -1,7 +1,9 @@
 #include "frontseat_driver/link/tcp_client.h"
 
+#include <linux/sockios.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 
 #include <array>
@@ -94,6 +96,12 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
   }
 
   void confirm() { back_off_.restart(); }
+
+  std::size_t unacknowledgedBytes() {
+    int bytes = 0;
+    const bool known = connected() && ioctl(socket_.native_handle(), SIOCOUTQ, &bytes) == 0;
+    return known && bytes > 0 ? static_cast<std::size_t>(bytes) : 0;
+  }
 
   bool connected() const { return state_ == State::Connected && broken_.empty(); }
 
@@ -320,5 +328,7 @@ bool TcpClient::write(std::string_view bytes) { return impl_->write(bytes); }
 void TcpClient::confirm() { impl_->confirm(); }
 
 bool TcpClient::connected() const { return impl_->connected(); }
+
+std::size_t TcpClient::unacknowledgedBytes() const { return impl_->unacknowledgedBytes(); }
 
 }  // namespace frontseat_driver::link
