@@ -64,7 +64,7 @@ void convertHorizontal(const Behavior& behavior, NorthOffset north_offset_deg,
                        BehaviorCommand& command, Check& check) {
   switch (behavior.horizontal_mode) {
     case Behavior::HORIZONTAL_NONE:
-      return;
+      return check.finite("horizontal", behavior.horizontal);
     case Behavior::HORIZONTAL_HEADING:
       command.horizontal = {BehaviorCommand::Horizontal::Heading,
                             check.heading_deg("horizontal", behavior.horizontal, north_offset_deg)};
@@ -83,7 +83,7 @@ void convertVertical(const Behavior& behavior, BehaviorCommand& command, Check& 
   const double value = behavior.vertical;
   switch (behavior.vertical_mode) {
     case Behavior::VERTICAL_NONE:
-      return;
+      return check.finite("vertical", behavior.vertical);
     case Behavior::VERTICAL_DEPTH:
       check.within("vertical", value, 0.0, kMostDepth_m);
       command.vertical = {BehaviorCommand::Vertical::Depth, value};
@@ -109,7 +109,7 @@ void convertVertical(const Behavior& behavior, BehaviorCommand& command, Check& 
 void convertSpeed(const Behavior& behavior, BehaviorCommand& command, Check& check) {
   switch (behavior.speed_mode) {
     case Behavior::SPEED_NONE:
-      return;
+      return check.finite("speed", behavior.speed);
     case Behavior::SPEED_RPM:
       check.within("speed", behavior.speed, -kMostRpm, kMostRpm);
       command.speed = {BehaviorCommand::Speed::Rpm, behavior.speed};
@@ -133,6 +133,19 @@ Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg) {
   convertVertical(behavior, command, check);
   convertSpeed(behavior, command, check);
   return check.result(command);
+}
+
+std::string tooOld(const Behavior& behavior, const ros::Time& now,
+                   std::chrono::nanoseconds max_command_age) {
+  if (behavior.header.stamp.isZero()) return {};
+  const double age_s = (now - behavior.header.stamp).toSec();
+  const double limit_s = std::chrono::duration<double>(max_command_age).count();
+  if (age_s <= limit_s) return {};
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "header.stamp is %.3f s old; at most %.3f s (max_command_age) is accepted", age_s,
+                limit_s);
+  return text;
 }
 
 Converted toCommand(const Drive& drive) {

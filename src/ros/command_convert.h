@@ -6,6 +6,7 @@
 #include <frontseat_driver/Helm.h>
 #include <geometry_msgs/Twist.h>
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <variant>
@@ -25,6 +26,10 @@ using NorthOffset = std::optional<double>;
 /// BPRMB. Yaw becomes a heading from the vehicle's north, radians become degrees; the vertical
 /// group is nautical on both sides.
 Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg);
+
+/// Why a stamped command is too old to be sent; empty if it is not, or carries no stamp.
+std::string tooOld(const Behavior& behavior, const ros::Time& now,
+                   std::chrono::nanoseconds max_command_age);
 
 /// PYDIR. Left is port.
 Converted toCommand(const Drive& drive);

@@ -58,7 +58,8 @@ ros::Subscriber CommandInput::subscribe(
 }
 
 void CommandInput::takeBehavior(const ros::MessageEvent<const Behavior>& event) {
-  const std::string too_old = tooOld(*event.getMessage());
+  const std::string too_old =
+      tooOld(*event.getMessage(), ros::Time::now(), parameters_.max_command_age);
   if (!too_old.empty()) return refuse(topics::kCmdBehavior, too_old);
   takeWithHeading(topics::kCmdBehavior, event);
 }
@@ -128,18 +129,6 @@ void CommandInput::refuse(const char* topic, std::string refusal) {
          session_.countRefusedCommands(refusals_.exchange(0));
          warn(topic, refusal, now);
        });
-}
-
-std::string CommandInput::tooOld(const Behavior& behavior) const {
-  if (behavior.header.stamp.isZero()) return {};
-  const double age_s = (ros::Time::now() - behavior.header.stamp).toSec();
-  const double limit_s = std::chrono::duration<double>(parameters_.max_command_age).count();
-  if (age_s <= limit_s) return {};
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "header.stamp is %.3f s old; at most %.3f s (max_command_age) is accepted", age_s,
-                limit_s);
-  return text;
 }
 
 void CommandInput::warn(const char* topic, const std::string& refusal, const vehicle::Now& now) {

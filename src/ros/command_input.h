@@ -71,7 +71,6 @@ class CommandInput {
   void command(const char* topic, const ros::Time& receipt, Convert convert);
   void refuse(const char* topic, std::string refusal);
   void post(Mailbox& mailbox, SessionTask task);
-  std::string tooOld(const Behavior& behavior) const;
   void warn(const char* topic, const std::string& refusal, const vehicle::Now& now);
 
   const std::string name_;

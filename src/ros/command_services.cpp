@@ -33,36 +33,37 @@ CommandServices::CommandServices(ros::NodeHandle node, const Parameters& paramet
                                  session::NmeaSession& session, VehiclePublisher& publisher,
                                  PostTask post)
     : timeout_(parameters.ack_timeout),
+      max_command_age_(parameters.max_command_age),
       session_(session),
       publisher_(publisher),
       post_(std::move(post)) {
-  advertise<Abort>(node, topics::kAbort, [this](AbortRequest& abort) {
+  advertise<Abort>(node, topics::kAbort, urgent_, [this](AbortRequest& abort) {
     return request(session::AbortRequest{abort.reason, abort.with_errors != 0});
   });
-  advertise<ModifyBehavior>(node, topics::kModifyBehavior, [this](ModifyBehaviorRequest& modify) {
-    return modifyBehavior(modify.behavior);
-  });
-  advertise<SetLogging>(node, topics::kSetLogging, [this](SetLoggingRequest& log) {
+  advertise<ModifyBehavior>(
+      node, topics::kModifyBehavior, threads_,
+      [this](ModifyBehaviorRequest& modify) { return modifyBehavior(modify.behavior); });
+  advertise<SetLogging>(node, topics::kSetLogging, threads_, [this](SetLoggingRequest& log) {
     return request(session::LogSwitch{log.sentence, log.enable != 0});
   });
-  advertise<SetDatum>(node, topics::kSetDatum,
+  advertise<SetDatum>(node, topics::kSetDatum, threads_,
                       [this](SetDatumRequest& datum) { return setDatum(datum); });
   advertise<std_srvs::SetBool>(
-      node, topics::kEnableCommands, [this](std_srvs::SetBoolRequest& gate) {
+      node, topics::kEnableCommands, urgent_, [this](std_srvs::SetBoolRequest& gate) {
         const bool open = gate.data != 0;
         return ask([this, open](const auto& now, auto& out, const auto& respond) {
           session_.setCommandsEnabled(now, open, out);
           respond(done(open ? "the command gate is open" : "the command gate is closed"));
         });
       });
-  advertise<std_srvs::Trigger>(node, topics::kStop, [this](std_srvs::TriggerRequest&) {
+  advertise<std_srvs::Trigger>(node, topics::kStop, urgent_, [this](std_srvs::TriggerRequest&) {
     return ask([this](const auto& now, auto& out, const auto& respond) {
       session_.stop(now, out);
       respond(done("commanding has ended"));
     });
   });
   if (!parameters.allow_raw_sentences) return;
-  advertise<SendSentence>(node, topics::kSendSentence, [this](SendSentenceRequest& raw) {
+  advertise<SendSentence>(node, topics::kSendSentence, threads_, [this](SendSentenceRequest& raw) {
     return request(session::RawSentence{raw.sentence});
   });
 }
@@ -70,11 +71,12 @@ CommandServices::CommandServices(ros::NodeHandle node, const Parameters& paramet
 void CommandServices::close() {
   closing_ = true;
   threads_.close();
+  urgent_.close();
   servers_.clear();
 }
 
 template <class Service>
-void CommandServices::advertise(ros::NodeHandle& node, const char* name,
+void CommandServices::advertise(ros::NodeHandle& node, const char* name, ServiceThreads& threads,
                                 std::function<Answer(typename Service::Request&)> serve) {
   ros::AdvertiseServiceOptions options = ros::AdvertiseServiceOptions::create<Service>(
       name,
@@ -85,7 +87,7 @@ void CommandServices::advertise(ros::NodeHandle& node, const char* name,
         response.message = answer.message;
         return true;
       },
-      ros::VoidConstPtr{}, &threads_);
+      ros::VoidConstPtr{}, &threads);
   servers_.push_back(node.advertiseService(options));
 }
 
@@ -93,8 +95,14 @@ Answer CommandServices::ask(Ask task) const {
   // Shared with the task, which may come to run after the wait has ended.
   const auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> answer = promise->get_future();
-  const auto deadline = std::chrono::steady_clock::now() + timeout_ + kGrace;
-  post_([task = std::move(task), promise](const vehicle::Now& now, session::Output& out) {
+  const auto called = std::chrono::steady_clock::now();
+  const auto deadline = called + timeout_ + kGrace;
+  // What the caller has been told is late must not be done after all.
+  const auto expiry = called + timeout_;
+  post_([task = std::move(task), promise, expiry](const vehicle::Now& now, session::Output& out) {
+    if (std::chrono::steady_clock::now() >= expiry) {
+      return promise->set_value({false, "the driver was held up; nothing was done"});
+    }
     task(now, out, [promise](const Answer& given) { promise->set_value(given); });
   });
   while (answer.wait_for(kLook) != std::future_status::ready) {
@@ -115,6 +123,8 @@ Answer CommandServices::request(session::Request wanted) const {
 }
 
 Answer CommandServices::modifyBehavior(const Behavior& behavior) const {
+  const std::string too_old = tooOld(behavior, ros::Time::now(), max_command_age_);
+  if (!too_old.empty()) return {false, too_old};
   return ask([this, behavior](const auto& now, auto& out, const auto& respond) {
     const Converted converted = toCommand(behavior, publisher_.builder().northOffset_deg());
     if (const auto* refusal = std::get_if<std::string>(&converted)) {

@@ -41,7 +41,7 @@ class CommandServices {
   using Ask = std::function<void(const vehicle::Now&, session::Output&, session::Respond)>;
 
   template <class Service>
-  void advertise(ros::NodeHandle& node, const char* name,
+  void advertise(ros::NodeHandle& node, const char* name, ServiceThreads& threads,
                  std::function<Answer(typename Service::Request&)> serve);
 
   Answer ask(Ask task) const;
@@ -50,11 +50,13 @@ class CommandServices {
   Answer setDatum(const SetDatumRequest& datum) const;
 
   const std::chrono::nanoseconds timeout_;
+  const std::chrono::nanoseconds max_command_age_;
   session::NmeaSession& session_;
   VehiclePublisher& publisher_;
   const PostTask post_;
   std::atomic<bool> closing_{false};
   ServiceThreads threads_;
+  ServiceThreads urgent_;  ///< a stop does not wait for calls that wait for the vehicle
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -7,14 +7,24 @@
 
 namespace frontseat_driver::ros_layer {
 
+namespace {
+
+// The silence time-out ends a link long before its data gets this old.
+constexpr std::chrono::seconds kOldest{30};
+
+}  // namespace
+
 Stamper::Stamper(StampMode mode) : mode_(mode) {}
 
 ros::Time Stamper::stamp(std::optional<vehicle::TimeOfDay> measured_at, TimeScale scale,
                          const vehicle::Now& arrival) const {
   if (mode_ == StampMode::Receive || !measured_at) return toRosTime(arrival.stamp);
   if (mode_ == StampMode::Synced) {
-    const auto on_host = clockOf(scale).toHost(*measured_at, arrival.stamp);
-    return toRosTime(std::min(on_host.value_or(arrival.stamp), arrival.stamp));
+    const auto on_host =
+        clockOf(scale).toHost(*measured_at, arrival.stamp).value_or(arrival.stamp);
+    // A clock that stands still, or a wrong time in one field, must not hold all stamps back.
+    const bool believable = arrival.stamp - on_host < kOldest;
+    return toRosTime(believable ? std::min(on_host, arrival.stamp) : arrival.stamp);
   }
   const std::chrono::seconds ahead =
       scale == TimeScale::Vehicle ? leap_seconds_ : std::chrono::seconds(0);

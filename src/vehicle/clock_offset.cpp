@@ -33,7 +33,7 @@ void ClockOffset::take(TimeOfDay sent_at, UtcTime arrival) {
   last_offset_ = offset;
   if (used_ == 0) return startAgain(offset, arrival);
   const Bucket& newest = buckets_[newest_];
-  const bool nothing_recent = arrival < newest.begin - kBucket || arrival > newest.at + kWindow;
+  const bool nothing_recent = arrival < newest.at || arrival > newest.at + kWindow;
   const nanoseconds late = offset - offsetAt(arrival);
   if (nothing_recent || late < -kStep) {
     steps_ += late < -kStep || late > kStep ? 1 : 0;

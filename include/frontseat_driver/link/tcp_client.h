@@ -2,6 +2,7 @@
 
 #include <boost/asio/io_context.hpp>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -86,6 +87,10 @@ class TcpClient {
 
   /// Whether bytes can be written.
   bool connected() const;
+
+  /// Bytes written that the vehicle's host has not acknowledged: more than a sentence or two means
+  /// that the link holds them back.
+  std::size_t unacknowledgedBytes() const;
 
  private:
   class Impl;
