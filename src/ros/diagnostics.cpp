@@ -13,6 +13,8 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kClockOffsetWarned_s = 5.0;
 constexpr double kBadShareWarned = 0.01;
 
+constexpr std::chrono::seconds kReportsAtLeastEvery{5};
+
 constexpr const char* kNotConnected = "no connection";
 
 double share(std::uint64_t part, std::uint64_t whole) {
@@ -51,7 +53,11 @@ void Diagnostics::update() {
 }
 
 void Diagnostics::link(Status& status) const {
-  if (health_.connected) {
+  const auto silent = std::chrono::steady_clock::now() - health_.taken;
+  if (silent > kReportsAtLeastEvery && !health_.replay) {
+    status.summaryf(DiagnosticStatus::ERROR, "the driver itself has reported nothing for %.0f s",
+                    std::chrono::duration<double>(silent).count());
+  } else if (health_.connected) {
     status.summaryf(DiagnosticStatus::OK, "connected to %s", health_.endpoint.c_str());
   } else {
     status.summaryf(DiagnosticStatus::ERROR, "not connected to %s: %s", health_.endpoint.c_str(),
@@ -72,6 +78,9 @@ void Diagnostics::data(Status& status) const {
                    "what parameter log_sentences asks for");
   } else if (*age_s > max_data_age_s_) {
     status.summaryf(DiagnosticStatus::ERROR, "no navigation sentence (NVG) for %.1f s", *age_s);
+  } else if (const auto silent_s = velocitySilence_s(); silent_s && *silent_s > max_data_age_s_) {
+    status.summaryf(DiagnosticStatus::WARN,
+                    "no velocity sentence (NVR) for %.1f s: odom has no twist", *silent_s);
   } else {
     status.summary(DiagnosticStatus::OK, "navigation comes in");
   }
@@ -79,6 +88,16 @@ void Diagnostics::data(Status& status) const {
     status.addf(rate.address, "%.1f Hz", rate.hz);
   }
   status.add("positions dropped as jumps", health_.jumps);
+}
+
+// Only of a vehicle that has sent some: a Sandshark need not be asked for it.
+std::optional<double> Diagnostics::velocitySilence_s() const {
+  for (const SentenceRates::Rate& rate : health_.rates) {
+    if (rate.address == "BFNVR" || rate.address == "CPNVR") {
+      return std::chrono::duration<double>(health_.taken - rate.last).count();
+    }
+  }
+  return std::nullopt;
 }
 
 void Diagnostics::decoding(Status& status) const {

@@ -27,6 +27,8 @@ struct Health {
   session::NmeaCounters counters;
   session::NmeaCounters counters_before;  ///< a second earlier
   std::vector<SentenceRates::Rate> rates;
+  vehicle::SteadyTime taken{};             ///< when all this was true
+  bool replay = false;                     ///< a record is played, and may stand still
   std::optional<double> navigation_age_s;  ///< empty: none since the connection was made
   std::optional<double> clock_offset_s;    ///< vehicle's UTC minus this computer's
   vehicle::ClockOffset::State clock;       ///< what synced stamps go by
@@ -57,6 +59,7 @@ class Diagnostics {
   void update();
   void link(Status& status) const;
   void data(Status& status) const;
+  std::optional<double> velocitySilence_s() const;
   void decoding(Status& status) const;
   void clock(Status& status) const;
   void control(Status& status) const;

@@ -53,7 +53,8 @@ NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::
       configured_leap_seconds_(parameters.leap_seconds),
       session_(sessionOptions(parameters)),
       publisher_(node, parameters),
-      diagnostics_(node, private_node, name_, seconds(parameters.max_data_age)) {
+      diagnostics_(node, private_node, name_, seconds(parameters.max_data_age)),
+      compass_check_(parameters) {
   health_.endpoint = configured_endpoint_;
   health_.last_failure = "not tried yet";
   reportHealth(readClocks());
@@ -152,11 +153,15 @@ void NmeaBridge::followDialect() {
 void NmeaBridge::watch(const vehicle::Now& now, const vehicle::Event& event) {
   if (const auto* navigation = std::get_if<vehicle::Navigation>(&event)) {
     last_navigation_ = now.steady;
+    compass_check_.take(*navigation);
     if (!navigation->measured_at) return;
     const auto leap_seconds = configured_leap_seconds_.value_or(
         session_.dialect() == protocol::Dialect::Kingfisher ? 18s : 0s);
     const auto told = vehicle::resolveDate(*navigation->measured_at - leap_seconds, now.utc);
     health_.clock_offset_s = seconds(told - now.utc);
+  } else if (const auto* compass = std::get_if<vehicle::Compass>(&event)) {
+    const std::string disagreement = compass_check_.take(*compass, now.steady);
+    if (!disagreement.empty()) ROS_WARN("%s: %s", name_.c_str(), disagreement.c_str());
   } else if (const auto* battery = std::get_if<vehicle::Battery>(&event)) {
     health_.battery_v = battery->stack_v;
   } else if (const auto* control = std::get_if<vehicle::Control>(&event)) {
@@ -202,6 +207,8 @@ void NmeaBridge::reportHealth(const vehicle::Now& now) {
   health_.dialect = dialectName();
   health_.counters_before = std::exchange(health_.counters, session_.counters());
   health_.rates = rates_.take(now.steady);
+  health_.taken = now.steady;
+  health_.replay = replay_ != nullptr;
   health_.jumps = publisher_.builder().jumps();
   health_.clock = publisher_.builder().clock();
   if (last_navigation_) health_.navigation_age_s = seconds(now.steady - *last_navigation_);

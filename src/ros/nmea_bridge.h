@@ -10,6 +10,7 @@
 
 #include "command_input.h"
 #include "command_services.h"
+#include "compass_check.h"
 #include "diagnostics.h"
 #include "frontseat_driver/driver/driver.h"
 #include "frontseat_driver/session/nmea_session.h"
@@ -59,6 +60,7 @@ class NmeaBridge : private driver::Listener {
   VehiclePublisher publisher_;
   Diagnostics diagnostics_;
   SentenceRates rates_;
+  CompassCheck compass_check_;
 
   std::optional<protocol::Dialect> followed_dialect_;
   Health health_;
