@@ -28,6 +28,10 @@ std::string withoutLineEnd(std::string_view line) {
 
 }  // namespace
 
+void PrintTo(const Sent& sent, std::ostream* out) {
+  *out << std::chrono::duration<double>(sent.at).count() << " s " << sent.sentence;
+}
+
 ros_layer::Parameters parametersFor(protocol::Dialect dialect) {
   ros_layer::Parameters parameters;
   parameters.session.dialect = dialect;
@@ -38,7 +42,7 @@ ros_layer::Parameters parametersFor(protocol::Dialect dialect) {
 ClosedLoop::ClosedLoop(const ros_layer::Parameters& parameters, const sim::SandsharkConfig& vehicle)
     : parameters_(parameters),
       start_(vehicle.start_time),
-      frontseat_(std::make_unique<sim::SandsharkFrontseat>(vehicle)),
+      frontseat_(frontseatFor(vehicle)),
       session_(parameters.session),
       builder_(parameters) {
   step();
@@ -48,10 +52,18 @@ ClosedLoop::ClosedLoop(const ros_layer::Parameters& parameters,
                        const sim::KingfisherConfig& vehicle)
     : parameters_(parameters),
       start_(vehicle.start_time),
-      frontseat_(std::make_unique<sim::KingfisherFrontseat>(vehicle)),
+      frontseat_(frontseatFor(vehicle)),
       session_(parameters.session),
       builder_(parameters) {
   step();
+}
+
+std::unique_ptr<sim::Frontseat> ClosedLoop::frontseatFor(const sim::SandsharkConfig& vehicle) {
+  return std::make_unique<sim::SandsharkFrontseat>(vehicle);
+}
+
+std::unique_ptr<sim::Frontseat> ClosedLoop::frontseatFor(const sim::KingfisherConfig& vehicle) {
+  return std::make_unique<sim::KingfisherFrontseat>(vehicle);
 }
 
 // --- Time ---
@@ -121,14 +133,6 @@ void ClosedLoop::disconnect() {
   frontseat_->clientDisconnected(client_);
   session_.disconnected(now(), output());
   step();
-}
-
-void ClosedLoop::powerCycle(const sim::SandsharkConfig& vehicle) {
-  disconnect();
-  sim::SandsharkConfig starting = vehicle;
-  starting.start_time = vehicleTime();
-  frontseat_ = std::make_unique<sim::SandsharkFrontseat>(starting);
-  next_tick_ = elapsed_;
 }
 
 void ClosedLoop::lose() {

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -34,6 +35,8 @@ struct Sent {
   Duration at{};  ///< since the beginning
   std::string sentence;
 };
+
+void PrintTo(const Sent& sent, std::ostream* out);
 
 /// What became of a request: every answer that came, and when.
 struct Asked {
@@ -89,13 +92,20 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   void connect();
   /// Both sides notice; what is under way is lost.
   void disconnect();
-  /// A vehicle that is told nothing of it begins anew.
-  void powerCycle(const sim::SandsharkConfig& vehicle);
+  /// The vehicle is off at once and begins anew, at the same clock; the link is lost.
+  template <class Config>
+  void powerCycle(Config vehicle) {
+    disconnect();
+    vehicle.start_time = vehicleTime();
+    frontseat_ = frontseatFor(vehicle);
+    next_tick_ = elapsed_;
+  }
 
   struct Link {
-    Duration delay{0};     ///< one way
-    bool takes = true;     ///< false: full, so that it refuses what is sent
-    bool delivers = true;  ///< false: half-open, so that all is taken and nothing arrives
+    Duration delay{0};       ///< one way
+    bool takes = true;       ///< false: full, so that it refuses what is sent
+    bool congested = false;  ///< still holds what it took before
+    bool delivers = true;    ///< false: half-open, so that all is taken and nothing arrives
     /// Applied to all that the vehicle says; what it returns arrives instead.
     std::function<std::string(std::string_view)> edit;
   };
@@ -153,6 +163,7 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
 
   // session::Output
   bool send(const vehicle::Now& now, std::string_view sentence) override;
+  bool congested() const override { return link.congested; }
   void heard(const vehicle::Now& now, std::string_view line) override;
   void event(const vehicle::Now& now, const vehicle::Event& event) override;
   void confirmed() override {}
@@ -161,6 +172,9 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   void send(sim::ClientId client, std::string_view bytes) override;
   void disconnect(sim::ClientId client) override;
   void navigation(const sim::Truth& truth) override;
+
+  static std::unique_ptr<sim::Frontseat> frontseatFor(const sim::SandsharkConfig& vehicle);
+  static std::unique_ptr<sim::Frontseat> frontseatFor(const sim::KingfisherConfig& vehicle);
 
   session::Output& output() { return *this; }
   vehicle::UtcTime vehicleTime() const { return start_ + elapsed_; }
