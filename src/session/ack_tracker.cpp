@@ -15,6 +15,13 @@ bool sameTime(const std::optional<vehicle::TimeOfDay>& a,
   return std::chrono::abs(*a - *b) < std::chrono::milliseconds{1};
 }
 
+// What only order can tell must not stand in the way of a request that somebody waits for: an
+// acknowledgement comes within two seconds (SPI 0.1, section 4.4) or not at all.
+bool isGivenUp(const AckTracker::Sent& sentence, AckTracker::SteadyTime now) {
+  const bool waited_for = sentence.request != AckTracker::kNoRequest;
+  return !sentence.time && !waited_for && now - sentence.at > std::chrono::seconds{2};
+}
+
 }  // namespace
 
 void AckTracker::sent(const Sent& sentence) {
@@ -39,7 +46,8 @@ std::optional<AckTracker::Sent> AckTracker::match(const Acknowledgement& ack, St
   }
   const auto found =
       std::find_if(outstanding_.begin(), outstanding_.end(), [&](const Sent& sentence) {
-        return sentence.formatter == ack.command && sameTime(sentence.time, ack.command_time);
+        return sentence.formatter == ack.command && sameTime(sentence.time, ack.command_time) &&
+               !isGivenUp(sentence, now);
       });
   if (found == outstanding_.end()) return std::nullopt;
   const Sent sentence = *found;

@@ -443,13 +443,18 @@ TEST_P(RangeEdge, IsTakenAndTheNextNumberIsNot) {
 INSTANTIATE_TEST_SUITE_P(Table, RangeEdge, testing::ValuesIn(kEdges),
                          [](const auto& row) { return std::string{row.param.name}; });
 
-// What is left alone is not looked at: a program may leave anything there.
-TEST(CommandConvert, ValuesOfAspectsLeftAloneDoNotMatter) {
+// What is left alone has no range, but a command with NaN or infinity is refused whole.
+TEST(CommandConvert, ValuesOfAspectsLeftAloneMustBeFinite) {
   Behavior message;
-  message.horizontal = kNan;
-  message.vertical = kInfinity;
   message.speed = -1e300;
   EXPECT_TRUE(std::holds_alternative<vehicle::Command>(toCommand(message, {})));
+  message.horizontal = kNan;
+  EXPECT_EQ(std::get<std::string>(toCommand(message, {})),
+            "horizontal is nan; a finite number is accepted");
+  message.horizontal = 0.0;
+  message.vertical = kInfinity;
+  EXPECT_EQ(std::get<std::string>(toCommand(message, {})),
+            "vertical is inf; a finite number is accepted");
 }
 
 // The whole command goes, whichever part is wrong.

@@ -608,6 +608,19 @@ TEST_F(Commanding, LogRequestsOfTheStartAreNotTakenForTheUsers) {
   EXPECT_EQ(answers_[0].message, "DVL on");
 }
 
+TEST_F(Commanding, AVehicleThatAcknowledgesNothingAtTheStartStillAnswersTheUser) {
+  start(withDialect(Dialect::Sandshark));
+  pass(500ms);
+  request(LogSwitch{"XYZ", false});
+  acknowledge("LOG", 2);  // may be of the start
+  for (int i = 0; i < 3 && answers_.empty(); ++i) {
+    pass(1s);
+    acknowledge("LOG", 2, "XYZ off");
+  }
+  ASSERT_THAT(answers_, SizeIs(1));
+  EXPECT_EQ(answers_[0].message, "XYZ off");
+}
+
 TEST_F(Commanding, ALostAcknowledgementDoesNotEatTheNextOne) {
   startSandshark();
   request(LogSwitch{"CTD", true});
