@@ -28,8 +28,8 @@ namespace frontseat_driver::ros_layer {
 class CommandServices {
  public:
   /// Session and publisher must outlive every posted task.
-  CommandServices(ros::NodeHandle node, const Parameters& parameters,
-                  session::NmeaSession& session, VehiclePublisher& publisher, PostTask post);
+  CommandServices(ros::NodeHandle node, const Parameters& parameters, session::NmeaSession& session,
+                  VehiclePublisher& publisher, PostTask post);
 
   /// Answers the calls under way at once and takes no more. Tasks posted before may still run.
   void close();

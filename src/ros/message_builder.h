@@ -31,8 +31,8 @@ namespace frontseat_driver::ros_layer {
 /// Turns what the vehicle tells into messages. Knows no publisher: an empty result is published
 /// nowhere, and a message that nobody wants need not be asked for.
 ///
-/// What goes into more than one message, or tells the time: take() each of them once when it arrives,
-/// whoever listens, then ask for the messages. Not safe for concurrent use.
+/// What goes into more than one message, or tells the time: take() each of them once when it
+/// arrives, whoever listens, then ask for the messages. Not safe for concurrent use.
 class MessageBuilder {
  public:
   explicit MessageBuilder(const Parameters& parameters);

@@ -80,9 +80,8 @@ NmeaBridge::~NmeaBridge() {
 
 void NmeaBridge::post(SessionTask task) {
   if (replay_) return replay_->post(task);
-  driver_->post([this, task = std::move(task)](const vehicle::Now& now) {
-    task(now, driver_->output());
-  });
+  driver_->post(
+      [this, task = std::move(task)](const vehicle::Now& now) { task(now, driver_->output()); });
 }
 
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
@@ -97,8 +96,7 @@ void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoin
 }
 
 void NmeaBridge::onDisconnected(const vehicle::Now& now, const std::string& reason) {
-  ROS_WARN("%s: disconnected from %s: %s", name_.c_str(), health_.endpoint.c_str(),
-           reason.c_str());
+  ROS_WARN("%s: disconnected from %s: %s", name_.c_str(), health_.endpoint.c_str(), reason.c_str());
   health_.connected = false;
   health_.last_failure = reason;
   health_.navigation_age_s.reset();
@@ -174,10 +172,11 @@ void NmeaBridge::watch(const vehicle::Now& now, const vehicle::Event& event) {
 void NmeaBridge::warnOfJumps(const vehicle::Now& now) {
   const std::uint64_t jumps = publisher_.builder().jumps();
   if (jumps == jumps_warned_ || now.steady < next_jump_warning_) return;
-  ROS_WARN("%s: dropped %lu position(s) too far from the last one, the latest by %.1f m; parameter "
-           "max_jump sets the limit",
-           name_.c_str(), static_cast<unsigned long>(jumps - jumps_warned_),
-           publisher_.builder().latestJump_m());
+  ROS_WARN(
+      "%s: dropped %lu position(s) too far from the last one, the latest by %.1f m; parameter "
+      "max_jump sets the limit",
+      name_.c_str(), static_cast<unsigned long>(jumps - jumps_warned_),
+      publisher_.builder().latestJump_m());
   jumps_warned_ = jumps;
   next_jump_warning_ = now.steady + kWarnAtMostEvery;
 }

@@ -24,8 +24,8 @@ namespace frontseat_driver::ros_layer {
 /// One NMEA vehicle on ROS: a session with the vehicle, run by a driver or by a record, and the
 /// topics it feeds. Logs what changes.
 ///
-/// Everything but the construction and the destruction happens on one thread at a time: the driver's,
-/// or with a record whichever holds its lock.
+/// Everything but the construction and the destruction happens on one thread at a time: the
+/// driver's, or with a record whichever holds its lock.
 class NmeaBridge : private driver::Listener {
  public:
   /// Connects, or begins to listen to the record. `name` stands before every log line.

@@ -11,8 +11,8 @@
 
 namespace frontseat_driver::ros_layer {
 
-/// Runs service calls, each on a thread of its own while it lasts: a call that waits for the vehicle
-/// keeps nobody else waiting. No thread exists while no call is under way.
+/// Runs service calls, each on a thread of its own while it lasts: a call that waits for the
+/// vehicle keeps nobody else waiting. No thread exists while no call is under way.
 class ServiceThreads : public ros::CallbackQueueInterface {
  public:
   /// More calls than this at once wait for one of them to end.

@@ -20,8 +20,7 @@ ros::Time Stamper::stamp(std::optional<vehicle::TimeOfDay> measured_at, TimeScal
                          const vehicle::Now& arrival) const {
   if (mode_ == StampMode::Receive || !measured_at) return toRosTime(arrival.stamp);
   if (mode_ == StampMode::Synced) {
-    const auto on_host =
-        clockOf(scale).toHost(*measured_at, arrival.stamp).value_or(arrival.stamp);
+    const auto on_host = clockOf(scale).toHost(*measured_at, arrival.stamp).value_or(arrival.stamp);
     // A clock that stands still, or a wrong time in one field, must not hold all stamps back.
     const bool believable = arrival.stamp - on_host < kOldest;
     return toRosTime(believable ? std::min(on_host, arrival.stamp) : arrival.stamp);

@@ -1,8 +1,8 @@
 #include "vehicle_publisher.h"
 
-#include <boost/make_shared.hpp>
 #include <frontseat_driver/Sentence.h>
 
+#include <boost/make_shared.hpp>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -154,8 +154,7 @@ void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Acknowle
   if (wanted(ack_)) publishShared(ack_, builder_.commandAck(ack, arrival));
 }
 
-void VehiclePublisher::take(const vehicle::Now& arrival,
-                            const vehicle::InterfaceVersion& version) {
+void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::InterfaceVersion& version) {
   publishShared(interface_version_, builder_.interfaceVersion(version, arrival));
 }
 

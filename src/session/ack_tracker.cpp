@@ -26,9 +26,8 @@ bool isGivenUp(const AckTracker::Sent& sentence, AckTracker::SteadyTime now) {
 
 void AckTracker::sent(const Sent& sentence) {
   if (outstanding_.size() == kMost) {
-    const auto unwaited =
-        std::find_if(outstanding_.begin(), outstanding_.end(),
-                     [](const Sent& sent) { return sent.request == kNoRequest; });
+    const auto unwaited = std::find_if(outstanding_.begin(), outstanding_.end(),
+                                       [](const Sent& sent) { return sent.request == kNoRequest; });
     outstanding_.erase(unwaited == outstanding_.end() ? outstanding_.begin() : unwaited);
   }
   outstanding_.push_back(sentence);

@@ -61,8 +61,7 @@ struct Sentence {
   nmea::TimeOfDay time;
 
   nmea::SentenceWriter operator()(const BehaviorCommand& command) const {
-    const BehaviorCommand wanted =
-        format.fill_behavior_fields ? filled(command, present) : command;
+    const BehaviorCommand wanted = format.fill_behavior_fields ? filled(command, present) : command;
     BehaviorChange change;
     change.sent_at = time;
     if (wanted.horizontal) {

@@ -70,7 +70,8 @@ EffectMonitor::Target EffectMonitor::targetOf(const vehicle::Command& command) {
 
 bool EffectMonitor::same(const Target& a, const Target& b) {
   return a.heading_deg.has_value() == b.heading_deg.has_value() &&
-         (!a.heading_deg || headingError_deg(*a.heading_deg, *b.heading_deg) < kHeadingNearer_deg) &&
+         (!a.heading_deg ||
+          headingError_deg(*a.heading_deg, *b.heading_deg) < kHeadingNearer_deg) &&
          a.depth_m.has_value() == b.depth_m.has_value() &&
          within(difference(a.depth_m, b.depth_m), kDepthNearer_m) &&
          a.speed_m_s.has_value() == b.speed_m_s.has_value() &&

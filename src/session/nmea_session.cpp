@@ -428,8 +428,8 @@ bool NmeaSession::sendCommand(const Now& now, Output& out) {
   if (!send(now, commandSentence(*command, options_.format, present(now), time), out)) return true;
   slot_.sent(now.steady);
   if (!isBoat() && use_acks_) {
-    acks_.sent({protocol::bluefin::BehaviorChange::kFormatter, time, AckTracker::kNoRequest,
-                now.steady});
+    acks_.sent(
+        {protocol::bluefin::BehaviorChange::kFormatter, time, AckTracker::kNoRequest, now.steady});
   }
   return true;
 }
@@ -456,8 +456,8 @@ bool NmeaSession::sendHandshake(const Now& now, Output& out) {
     if (send(now, protocol::write(request), out)) {
       ++next_log_request_;
       if (isAcknowledged(log)) {
-        acks_.sent({protocol::bluefin::LogRequest::kFormatter, std::nullopt,
-                    AckTracker::kNoRequest, now.steady});
+        acks_.sent({protocol::bluefin::LogRequest::kFormatter, std::nullopt, AckTracker::kNoRequest,
+                    now.steady});
       }
     }
   }

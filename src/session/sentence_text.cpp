@@ -28,7 +28,8 @@ std::optional<SentenceText> toSentenceText(std::string_view text) {
 
 std::string textRefusal(const std::string& field) {
   return field +
-         " holds a character that would break the sentence; printable ASCII without comma, asterisk "
+         " holds a character that would break the sentence; printable ASCII without comma, "
+         "asterisk "
          "and $ is accepted";
 }
 
@@ -36,7 +37,8 @@ nmea::SentenceWriter rawSentence(std::string_view body) {
   if (!body.empty() && body.front() == '$') body.remove_prefix(1);
   std::size_t comma = body.find(',');
   const std::string_view address = body.substr(0, comma);
-  nmea::SentenceWriter writer{address.substr(0, 2), address.substr(std::min<std::size_t>(2, address.size()))};
+  nmea::SentenceWriter writer{address.substr(0, 2),
+                              address.substr(std::min<std::size_t>(2, address.size()))};
   while (comma != std::string_view::npos) {
     body.remove_prefix(comma + 1);
     comma = body.find(',');

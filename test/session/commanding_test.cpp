@@ -53,9 +53,9 @@ class Commanding : public NmeaSessionTest {
   }
 
   void request(Request wanted) {
-    session_->request(now(), std::move(wanted), [this](const Answer& answer) {
-      answers_.push_back(answer);
-    }, out_);
+    session_->request(
+        now(), std::move(wanted), [this](const Answer& answer) { answers_.push_back(answer); },
+        out_);
     session_->step(now(), out_);
   }
 
@@ -361,7 +361,9 @@ TEST_F(Commanding, ABehaviorThatWaitsIsNotSentAfterCommandingHasEnded) {
       [this] { hear("BFCTL,120001.000,0"); },
       [this] { gate(false); },
       [this] { stop(); },
-      [this] { request(AbortRequest{"leak", true}); },
+      [this] {
+        request(AbortRequest{"leak", true});
+      },
   };
   for (const auto& end : ends) {
     answers_.clear();
@@ -573,7 +575,8 @@ TEST_F(Commanding, LogRequestsAreRememberedAcrossReconnects) {
   disconnect();
   EXPECT_EQ(answers_[0].message, "the connection was lost before the vehicle answered");
   request(LogSwitch{"DVL", true});
-  EXPECT_EQ(answers_[1].message, "there is no connection to the vehicle; it will be asked for when there is");
+  EXPECT_EQ(answers_[1].message,
+            "there is no connection to the vehicle; it will be asked for when there is");
   request(LogSwitch{"CTD", false});
   out_.sent.clear();
   connect();

@@ -71,7 +71,8 @@ class NmeaSessionTest : public testing::Test {
   void pass(std::chrono::nanoseconds duration) {
     const auto end = elapsed_ + duration;
     while (session_->nextStep() <= SteadyTime{end}) {
-      elapsed_ = std::max(elapsed_, std::chrono::nanoseconds{session_->nextStep().time_since_epoch()});
+      elapsed_ =
+          std::max(elapsed_, std::chrono::nanoseconds{session_->nextStep().time_since_epoch()});
       session_->step(now(), out_);
     }
     elapsed_ = end;

@@ -17,10 +17,9 @@ using testing::SizeIs;
 TEST_F(NmeaSessionTest, SandsharkHandshakeInOrderAndSpaced) {
   start(withDialect(Dialect::Sandshark));
   pass(1s);
-  EXPECT_THAT(out_.sentences(),
-              ElementsAre("$BPVER,120000.000,0.1*61\r\n", "$BPLOG,ACK,ON*1E\r\n",
-                          "$BPLOG,NVG,ON*08\r\n", "$BPLOG,NVR,ON*1D\r\n", "$BPLOG,MIS,ON*00\r\n",
-                          "$BPLOG,CTL,ON*0C\r\n"));
+  EXPECT_THAT(out_.sentences(), ElementsAre("$BPVER,120000.000,0.1*61\r\n", "$BPLOG,ACK,ON*1E\r\n",
+                                            "$BPLOG,NVG,ON*08\r\n", "$BPLOG,NVR,ON*1D\r\n",
+                                            "$BPLOG,MIS,ON*00\r\n", "$BPLOG,CTL,ON*0C\r\n"));
   for (std::size_t i = 1; i < out_.sent.size(); ++i) {
     EXPECT_EQ(out_.sent[i].at - out_.sent[i - 1].at, 60ms);
   }

@@ -28,8 +28,8 @@ class Vehicle {
   explicit Vehicle(std::uint64_t seed) : random_(seed) {}
 
   struct Sample {
-    UtcTime truth;        ///< when it was sent, on the host's clock
-    UtcTime arrival;      ///< on the host's clock
+    UtcTime truth;                   ///< when it was sent, on the host's clock
+    UtcTime arrival;                 ///< on the host's clock
     ClockOffset::TimeOfDay sent_at;  ///< on the vehicle's clock
   };
 
@@ -115,9 +115,7 @@ const Row kRows[] = {
 INSTANTIATE_TEST_SUITE_P(Table, Delayed, testing::ValuesIn(kRows),
                          [](const auto& row) { return std::string{row.param.name}; });
 
-TEST(ClockOffset, NothingBeforeTheFirstSample) {
-  EXPECT_FALSE(ClockOffset{}.toHost(12h, kStart));
-}
+TEST(ClockOffset, NothingBeforeTheFirstSample) { EXPECT_FALSE(ClockOffset{}.toHost(12h, kStart)); }
 
 TEST(ClockOffset, IsUsefulAfterOneSecond) {
   Vehicle vehicle{11};

@@ -49,9 +49,9 @@ class Driver {
   void start();
 
   /// Lets the session say its last words, ends any wait, closes the connection in order, and joins
-  /// the thread. Within 100 ms, unless a callback holds it up. May be called from any thread but the
-  /// driver's own, at any time, and again. If there was a connection, the session and the listener
-  /// are told that it ended; after that neither is called again.
+  /// the thread. Within 100 ms, unless a callback holds it up. May be called from any thread but
+  /// the driver's own, at any time, and again. If there was a connection, the session and the
+  /// listener are told that it ended; after that neither is called again.
   void stop();
 
   /// Runs `task` on the driver's thread, then a step of the session. From any thread; tasks run in

@@ -14,11 +14,11 @@ namespace frontseat_driver::session {
 
 /// Tells which sent sentence an acknowledgement is for (SPI 0.1, section 6.4).
 ///
-/// Matches by name and by the time the sentence carried; BPLOG carries none, so there only the order
-/// tells. Any sentence may come in between, acknowledgements may be lost, late, pending first, or
-/// come twice: each sent sentence is found at most once with a final status, and one that is never
-/// answered is forgotten in time. Bounded: when there are kMost, the oldest that nobody waits for
-/// goes.
+/// Matches by name and by the time the sentence carried; BPLOG carries none, so there only the
+/// order tells. Any sentence may come in between, acknowledgements may be lost, late, pending
+/// first, or come twice: each sent sentence is found at most once with a final status, and one that
+/// is never answered is forgotten in time. Bounded: when there are kMost, the oldest that nobody
+/// waits for goes.
 class AckTracker {
  public:
   using SteadyTime = vehicle::SteadyTime;

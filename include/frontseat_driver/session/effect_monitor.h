@@ -14,8 +14,8 @@ namespace frontseat_driver::session {
 ///
 /// The vehicle answers when each commanded heading, speed or depth is reached, or when one of them
 /// comes nearer. When nothing does so for the time-out, that is told with the figures. Rudder,
-/// elevator, pitch and rpm have no figure to compare with and count as answered; a boat under thrust
-/// must move.
+/// elevator, pitch and rpm have no figure to compare with and count as answered; a boat under
+/// thrust must move.
 class EffectMonitor {
  public:
   using SteadyTime = vehicle::SteadyTime;

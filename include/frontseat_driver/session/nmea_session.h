@@ -71,8 +71,8 @@ struct CommandRefusal {
 /// seconds without one BPVER is sent, which a boat ignores.
 ///
 /// Commands: one newest, repeated while it is fresh and permitted. When commanding ends, for
-/// whatever reason but a lost link, a Kingfisher is sent one zero thrust and a Sandshark nothing, so
-/// that it takes over again. An abort or a zero thrust goes next, ahead of anything that waits.
+/// whatever reason but a lost link, a Kingfisher is sent one zero thrust and a Sandshark nothing,
+/// so that it takes over again. An abort or a zero thrust goes next, ahead of anything that waits.
 class NmeaSession : public Session {
  public:
   explicit NmeaSession(NmeaOptions options);
@@ -85,8 +85,8 @@ class NmeaSession : public Session {
   void leave(const Now& now, Output& out) override;
   bool hasLeft() const override { return leaving_ && !zero_due_; }
 
-  /// Takes the place of the command before. `received` is when it reached this computer. Returns why
-  /// it was refused, or nothing; a refused command changes nothing.
+  /// Takes the place of the command before. `received` is when it reached this computer. Returns
+  /// why it was refused, or nothing; a refused command changes nothing.
   std::string command(const Now& now, const vehicle::Command& command, SteadyTime received,
                       Output& out);
 
@@ -100,7 +100,8 @@ class NmeaSession : public Session {
   /// this call if it cannot be sent. The respond function must not call the session.
   void request(const Now& now, Request request, Respond respond, Output& out);
 
-  /// What BPSTS says from now on, at once and at status_rate. Returns why it was refused, or nothing.
+  /// What BPSTS says from now on, at once and at status_rate. Returns why it was refused, or
+  /// nothing.
   std::string setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status);
 
   /// Counts commands that were refused before they got here.

@@ -18,16 +18,16 @@ struct SentenceText {
   bool lowered = false;  ///< it held a command's name in capitals and was put into lower case
 };
 
-/// Field frontseats find the command by the first of RMB, LOG, ABT, STS, VER anywhere in the line, so
-/// a text that holds one of them is put into lower case. Nothing for a text that would break the
+/// Field frontseats find the command by the first of RMB, LOG, ABT, STS, VER anywhere in the line,
+/// so a text that holds one of them is put into lower case. Nothing for a text that would break the
 /// sentence: a comma, an asterisk, `$`, control or non-ASCII characters.
 std::optional<SentenceText> toSentenceText(std::string_view text);
 
 /// What is wrong with a text that toSentenceText() refused, naming its field.
 std::string textRefusal(const std::string& field);
 
-/// A sentence as the user wrote it, "PYDIR,0,0", with or without `$`; the checksum is added. What is
-/// no sentence makes the writer invalid.
+/// A sentence as the user wrote it, "PYDIR,0,0", with or without `$`; the checksum is added. What
+/// is no sentence makes the writer invalid.
 nmea::SentenceWriter rawSentence(std::string_view body);
 
 }  // namespace frontseat_driver::session

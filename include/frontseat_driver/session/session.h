@@ -32,8 +32,8 @@ class Output {
   virtual void confirmed() = 0;
 };
 
-/// The conversation with one vehicle: bytes and time in, sentences and events out. It has no thread,
-/// socket, clock or logger, so that whole missions run in a test in virtual time.
+/// The conversation with one vehicle: bytes and time in, sentences and events out. It has no
+/// thread, socket, clock or logger, so that whole missions run in a test in virtual time.
 class Session {
  public:
   virtual ~Session() = default;

@@ -39,11 +39,11 @@ class ClockOffset {
   void reset();
 
   struct State {
-    std::uint64_t samples = 0;         ///< since the last step
-    std::uint64_t steps = 0;           ///< clock steps noticed
-    std::chrono::nanoseconds offset{}; ///< host minus vehicle, the vehicle's date as the host's
-    std::chrono::nanoseconds jitter{}; ///< mean delay beyond the least
-    double drift_ppm = 0.0;            ///< how much faster the host's clock runs
+    std::uint64_t samples = 0;          ///< since the last step
+    std::uint64_t steps = 0;            ///< clock steps noticed
+    std::chrono::nanoseconds offset{};  ///< host minus vehicle, the vehicle's date as the host's
+    std::chrono::nanoseconds jitter{};  ///< mean delay beyond the least
+    double drift_ppm = 0.0;             ///< how much faster the host's clock runs
   };
   State state() const;
 
@@ -69,7 +69,7 @@ class ClockOffset {
   std::array<Bucket, kBuckets> buckets_;
   std::size_t used_ = 0;
   std::size_t newest_ = 0;
-  Bucket least_;  ///< the earliest sample of all
+  Bucket least_;                                         ///< the earliest sample of all
   std::optional<std::chrono::nanoseconds> last_offset_;  ///< of the newest sample; tells the day
   double drift_ = 0.0;
   std::chrono::nanoseconds jitter_{};

@@ -7,8 +7,8 @@
 #include <variant>
 
 /// What any frontseat can say, in nautical terms: degrees, compass headings, depths, body axes
-/// x bow, y starboard, z down. A value that is missing is empty. Texts are views that hold while the
-/// event is handled.
+/// x bow, y starboard, z down. A value that is missing is empty. Texts are views that hold while
+/// the event is handled.
 namespace frontseat_driver::vehicle {
 
 /// Time of day on the vehicle's clock; which day, only the receive time tells.
@@ -29,12 +29,12 @@ struct ClockSample {
 struct Navigation {
   std::optional<TimeOfDay> measured_at;
   std::optional<Position> position;
-  bool from_gps = false;               ///< false: dead reckoning
-  std::optional<double> altitude_m;    ///< above the bottom
-  std::optional<double> depth_m;       ///< below the surface
-  std::optional<double> heading_deg;   ///< clockwise from the north of the vehicle's reference
-  std::optional<double> roll_deg;      ///< positive port side up
-  std::optional<double> pitch_deg;     ///< positive bow up
+  bool from_gps = false;              ///< false: dead reckoning
+  std::optional<double> altitude_m;   ///< above the bottom
+  std::optional<double> depth_m;      ///< below the surface
+  std::optional<double> heading_deg;  ///< clockwise from the north of the vehicle's reference
+  std::optional<double> roll_deg;     ///< positive port side up
+  std::optional<double> pitch_deg;    ///< positive bow up
 };
 
 /// Velocity over ground and body rates.
@@ -155,8 +155,8 @@ struct Shutdown {
   std::chrono::seconds notice{60};  ///< least time until then
 };
 
-using Event = std::variant<ClockSample, Navigation, Velocity, RawImu, Compass, Battery, GpsFix,
-                           GpsVelocity, MissionStatus, Control, Acknowledgement, InterfaceVersion,
-                           Shutdown>;
+using Event =
+    std::variant<ClockSample, Navigation, Velocity, RawImu, Compass, Battery, GpsFix, GpsVelocity,
+                 MissionStatus, Control, Acknowledgement, InterfaceVersion, Shutdown>;
 
 }  // namespace frontseat_driver::vehicle
