@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "frontseat_driver/link/tcp_client.h"
 #include "frontseat_driver/link/tcp_server.h"
@@ -30,7 +31,6 @@ const Address kAddresses[] = {
 class ConnectTo : public ::testing::TestWithParam<Address> {};
 
 TEST_P(ConnectTo, ExchangesBytes) {
-  if (GetParam().bind == std::string("::1") && !hasIpv6()) GTEST_SKIP() << "no IPv6 here";
   boost::asio::io_context io;
   ServerLog vehicle;
   TcpServer server(io, GetParam().bind, 0, vehicle);
@@ -46,7 +46,16 @@ TEST_P(ConnectTo, ExchangesBytes) {
   EXPECT_TRUE(client.connected());
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, ConnectTo, ::testing::ValuesIn(kAddresses),
+// A host without IPv6 has no such rows.
+std::vector<Address> reachableAddresses() {
+  std::vector<Address> reachable;
+  for (const Address& address : kAddresses) {
+    if (address.bind != std::string("::1") || hasIpv6()) reachable.push_back(address);
+  }
+  return reachable;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, ConnectTo, ::testing::ValuesIn(reachableAddresses()),
                          [](const auto& row) { return std::string{row.param.name}; });
 
 struct Failure {
