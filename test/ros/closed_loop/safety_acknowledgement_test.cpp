@@ -68,7 +68,7 @@ TEST_F(Safety, DuplicatedAcksAnswerOnce) {
   startSandshark();
   loop_->link.edit = [](std::string_view bytes) { return std::string{bytes} + std::string{bytes}; };
   std::vector<std::size_t> requests;
-  for (const char* name : {"CTD", "DVL", "RVL", "XXX"}) {
+  for (const char* name : {"CTD", "DVL", "RVL", "XYZ"}) {
     requests.push_back(loop_->request(LogSwitch{name, true}));
     requests.push_back(loop_->request(vehicle::BehaviorCommand{}));
     loop_->publishFor(heading(0.0), 50ms, 500ms);
@@ -76,7 +76,7 @@ TEST_F(Safety, DuplicatedAcksAnswerOnce) {
   requests.push_back(loop_->request(AbortRequest{"leak", true}));
   loop_->pass(10s);
   for (const std::size_t request : requests) EXPECT_LE(waitedFor(request), kAckTimeout);
-  EXPECT_FALSE(answerTo(requests[6]).answer.success) << "there is no XXX";
+  EXPECT_FALSE(answerTo(requests[6]).answer.success) << "there is no XYZ";
   EXPECT_TRUE(answerTo(requests.back()).answer.success);
 }
 
