@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 #include "convert.h"
@@ -15,6 +16,9 @@ namespace frontseat_driver::closed_loop {
 using namespace std::chrono_literals;
 
 namespace {
+
+// More steps than anything can call for at one instant.
+constexpr int kMostStepsAtOnce = 1000;
 
 // Not that of the loop, so that a mixed-up clock shows.
 constexpr std::chrono::hours kSteadyStart{1};
@@ -76,7 +80,11 @@ vehicle::Now ClosedLoop::now() const {
 
 void ClosedLoop::pass(Duration duration) {
   const Duration end = elapsed_ + duration;
+  int steps_at_once = 0;
   while (nextEvent() <= end) {
+    steps_at_once = nextEvent() > elapsed_ ? 0 : steps_at_once + 1;
+    // On the driver's thread it would be a loop that takes all of a processor.
+    if (steps_at_once > kMostStepsAtOnce) throw std::logic_error{"steps are asked for without end"};
     elapsed_ = std::max(elapsed_, nextEvent());
     vehicleSteps();
     deliver();

@@ -64,7 +64,8 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
 
   // Time
 
-  /// Lets time pass, the vehicle ticking and the session stepping when it asks to.
+  /// Lets time pass, the vehicle ticking and the session stepping when it asks to. Throws
+  /// std::logic_error if it asks without end.
   void pass(Duration duration);
 
   /// Lets time pass until `done`, looked at each 10 ms, or `limit`; false then.
