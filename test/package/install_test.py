@@ -12,7 +12,7 @@ import package_under_test as package
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
 PROGRAMS = ("nmea_node", "nmea_simulator", "kingfisher_square", "kingfisher_square.py",
             "sandshark_survey.py")
-LAYERS = ("nmea", "vehicle", "link", "protocol", "session", "driver", "sim")
+LAYERS = ("nmea", "vehicle", "link", "protocol", "capture", "session", "driver", "sim")
 
 
 def installed_files():
