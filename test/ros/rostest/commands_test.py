@@ -124,12 +124,15 @@ class Boat(Commanding):
         self.start(boat())
         self.publisher("cmd_drive", Drive).publish(Drive(left=0.5, right=0.5))
         self.control.wait_until(lambda status: status.commanding)
-        self.connection.wait_for("DIR", 6)
         diagnostics = Collector("/diagnostics", DiagnosticArray)
         self.addCleanup(diagnostics.close)
         wait_until(lambda: "PYDIR,0,0" in self.connection.bodies(), "zero thrust")
         diagnostics.wait_for_publisher().wait_for(2)
-        self.assertEqual(["PYDIR,50,50"] * 5 + ["PYDIR,0,0"], self.connection.bodies())
+        *repeated, last = self.connection.bodies()
+        self.assertEqual("PYDIR,0,0", last)
+        self.assertEqual({"PYDIR,50,50"}, set(repeated))
+        # Five in the second that it is fresh; a computer that holds its programs up may cost some.
+        self.assertIn(len(repeated), range(2, 6))
         self.assertFalse(self.control.messages[-1].commanding)
 
 
@@ -244,9 +247,13 @@ class Reconnect(Commanding):
     namespace = "/reconnect"
 
     def break_link(self):
+        """Until the driver has noticed and is back."""
         count = len(self.vehicle.connections)
+        said = len(self.control.messages)
         self.connection.close(reset=True)
         self.connection = self.vehicle.wait_for_connection(count + 1)
+        wait_until(lambda: [status for status in self.control.messages[said:]
+                            if status.grant == ControlStatus.UNKNOWN], "permission forgotten")
 
     def test_boat_hears_nothing_from_before(self):
         self.start(boat(), **PATIENT)
@@ -254,7 +261,6 @@ class Reconnect(Commanding):
         publisher.publish(Drive(left=0.5, right=0.5))
         self.connection.wait_for("DIR,50,50", 3)
         self.break_link()
-        self.control.wait_until(lambda status: status.reason != "")
         wait_until(lambda: self.control.messages[-1].grant == ControlStatus.GRANTED, "permission")
         self.assertFalse(self.control.messages[-1].commanding)
         publisher.publish(Drive(left=0.25, right=0.25))
@@ -296,9 +302,9 @@ class Requests(Commanding):
                                 sentence("BFMIS,%s,survey.dive,Aborting," % time_of_day()),
                                 acknowledgement(line, 2, "surfaced"))
 
-        self.start(shark(answer), send_spacing=0.2)
+        self.start(shark(answer), send_spacing=0.8)
         acks = self.collect("ack", CommandAck)
-        # Behind these five it would wait a second.
+        # Behind these five it would wait four seconds.
         self.connection.wait_for("LOG", 1)
         answer_heard = self.call("abort", Abort, "leak, so stop", True)
         self.assertFalse(answer_heard.success)

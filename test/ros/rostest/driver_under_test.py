@@ -19,7 +19,8 @@ from fake_vehicle import TIMEOUT_S, wait_until
 
 PACKAGE = "frontseat_driver"
 NODELET = PACKAGE + "/NmeaNodelet"
-QUICK = {"reconnect_min": 0.02, "reconnect_max": 0.1}
+# Back at once, and patient with a vehicle that says nothing more than its greeting.
+QUICK = {"reconnect_min": 0.02, "reconnect_max": 0.1, "silence_timeout": 60.0}
 
 
 def program(package, name):
