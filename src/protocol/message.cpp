@@ -24,19 +24,23 @@ using Decode = void (*)(FieldReader&, Message&);
 struct Decoder {
   std::uint64_t address = 0;  ///< talker and formatter; of any talker: the formatter alone
   Decode decode = nullptr;
+  KnownSentence sentence{};
 };
 
 template <class T>
 constexpr Decoder decoderFor(std::string_view talker, std::string_view formatter = T::kFormatter) {
   return {pack(formatter, pack(talker)),
-          [](FieldReader& in, Message& out) { out.template emplace<T>(T::decode(in)); }};
+          [](FieldReader& in, Message& out) { out.template emplace<T>(T::decode(in)); },
+          {talker, formatter, T::kTitle}};
 }
 
 template <DegreeSplit kSplit>
 constexpr Decoder navigationFrom(std::string_view talker) {
-  return {pack(NavigationUpdate::kFormatter, pack(talker)), [](FieldReader& in, Message& out) {
+  return {pack(NavigationUpdate::kFormatter, pack(talker)),
+          [](FieldReader& in, Message& out) {
             out.emplace<NavigationUpdate>(NavigationUpdate::decode(in, kSplit));
-          }};
+          },
+          {talker, NavigationUpdate::kFormatter, NavigationUpdate::kTitle}};
 }
 
 template <class T>
@@ -82,7 +86,9 @@ constexpr Decoder kDecoders[] = {
 class Index {
  public:
   constexpr Index() {
-    for (const Decoder& decoder : kDecoders) slots_[slotOf(decoder.address)] = decoder;
+    for (const Decoder& decoder : kDecoders) {
+      slots_[slotOf(decoder.address)] = {decoder.address, decoder.decode};
+    }
   }
 
   constexpr Decode find(std::uint64_t address) const { return slots_[slotOf(address)].decode; }
@@ -97,7 +103,12 @@ class Index {
     return at;
   }
 
-  Decoder slots_[kSlots] = {};
+  struct Slot {
+    std::uint64_t address = 0;
+    Decode decode = nullptr;
+  };
+
+  Slot slots_[kSlots] = {};
 };
 
 constexpr Index kIndex;
@@ -130,6 +141,20 @@ nmea::Decoded<Reading> decode(const nmea::Sentence& sentence) {
   decode(in, reading->message);
   reading->faults = in.faults();
   return reading;
+}
+
+std::vector<KnownSentence> knownSentences() {
+  std::vector<KnownSentence> all;
+  for (const Decoder& decoder : kDecoders) all.push_back(decoder.sentence);
+  return all;
+}
+
+std::string_view titleOf(const Message& message) {
+  return std::visit([](const auto& m) { return m.kTitle; }, message);
+}
+
+void describe(const Message& message, FieldVisitor& out) {
+  std::visit([&out](const auto& m) { m.describe(out); }, message);
 }
 
 }  // namespace frontseat_driver::protocol

@@ -39,4 +39,16 @@ void NavigationUpdate::encode(nmea::SentenceWriter& out) const {
   out.timeOfDay(computed_at);
 }
 
+void NavigationUpdate::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.position({2, "position"}, position);
+  out.flag({6, "from_gps"}, from_gps);
+  out.number({7, "altitude", unit::kMeters}, altitude_m);
+  out.number({8, "depth", unit::kMeters}, depth_m);
+  out.number({9, "heading", unit::kDegrees}, heading_deg);
+  out.number({10, "roll", unit::kDegrees}, roll_deg);
+  out.number({11, "pitch", unit::kDegrees}, pitch_deg);
+  out.time({12, "computed_at"}, computed_at);
+}
+
 }  // namespace frontseat_driver::protocol

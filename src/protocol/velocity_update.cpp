@@ -32,4 +32,14 @@ void VelocityUpdate::encode(nmea::SentenceWriter& out) const {
   out.number(yaw_rate_deg_s, kRateDecimals);
 }
 
+void VelocityUpdate::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.number({2, "east", unit::kMetersPerSecond}, east_m_s);
+  out.number({3, "north", unit::kMetersPerSecond}, north_m_s);
+  out.number({4, "down", unit::kMetersPerSecond}, down_m_s);
+  out.number({5, "pitch_rate", unit::kDegreesPerSecond}, pitch_rate_deg_s);
+  out.number({6, "roll_rate", unit::kDegreesPerSecond}, roll_rate_deg_s);
+  out.number({7, "yaw_rate", unit::kDegreesPerSecond}, yaw_rate_deg_s);
+}
+
 }  // namespace frontseat_driver::protocol

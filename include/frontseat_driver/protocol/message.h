@@ -3,6 +3,7 @@
 #include <optional>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/protocol/bluefin/abort_mission.h"
@@ -21,6 +22,7 @@
 #include "frontseat_driver/protocol/bluefin/raw_vehicle_speed.h"
 #include "frontseat_driver/protocol/bluefin/sound_speed.h"
 #include "frontseat_driver/protocol/bluefin/vehicle_version.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 #include "frontseat_driver/protocol/gps/course_and_speed.h"
 #include "frontseat_driver/protocol/gps/fix.h"
 #include "frontseat_driver/protocol/gps/minimum_data.h"
@@ -67,6 +69,21 @@ struct Reading {
 
 /// Reads any sentence either dialect knows; others are Fault::UnknownType.
 nmea::Decoded<Reading> decode(const nmea::Sentence& sentence);
+
+/// A sentence that decode() knows. An empty talker is any.
+struct KnownSentence {
+  std::string_view talker;
+  std::string_view formatter;
+  std::string_view title;  ///< in plain words: "navigation update"
+};
+
+std::vector<KnownSentence> knownSentences();
+
+/// What a sentence is, in plain words.
+std::string_view titleOf(const Message& message);
+
+/// Shows `out` every field of the message's sentence.
+void describe(const Message& message, FieldVisitor& out);
 
 /// A finished writer for a message whose talker is fixed. Keep it while its finish() is in use.
 template <class T>

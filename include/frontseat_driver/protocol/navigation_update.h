@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol {
 /// $BFNVG,hhmmss.sss,llll.ll,a,yyyyy.yy,b,g,c.c,d.d,h.h,r.r,p.p,hhmmss.sss*hh
 ///        1          2       3 4        5 6 7   8   9   10  11  12
 struct NavigationUpdate {
+  static constexpr std::string_view kTitle = "navigation update";
   static constexpr std::string_view kFormatter = "NVG";
 
   std::optional<nmea::TimeOfDay> sent_at;
@@ -29,6 +31,7 @@ struct NavigationUpdate {
 
   static NavigationUpdate decode(nmea::FieldReader& in, nmea::DegreeSplit split);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol

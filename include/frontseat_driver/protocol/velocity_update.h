@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol {
 /// $BFNVR,hhmmss.sss,e.e,n.n,v.v,s.s,t.t,g.g*hh
 ///        1          2   3   4   5   6   7
 struct VelocityUpdate {
+  static constexpr std::string_view kTitle = "velocity and rates";
   static constexpr std::string_view kFormatter = "NVR";
 
   std::optional<nmea::TimeOfDay> sent_at;
@@ -27,6 +29,7 @@ struct VelocityUpdate {
 
   static VelocityUpdate decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol

@@ -19,4 +19,10 @@ void AbortMission::encode(nmea::SentenceWriter& out) const {
   writeFlag(with_errors, out);
 }
 
+void AbortMission::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.text({2, "message"}, message);
+  out.flag({3, "with_errors"}, with_errors);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

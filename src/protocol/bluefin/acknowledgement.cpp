@@ -26,4 +26,15 @@ void Acknowledgement::encode(nmea::SentenceWriter& out) const {
   out.blank();
 }
 
+void Acknowledgement::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.text({2, "command"}, command);
+  out.time({3, "command_time"}, command_time);
+  out.text({4, "behavior_id"}, behavior_id);
+  const auto index =
+      status ? std::optional<std::size_t>{static_cast<std::size_t>(*status)} : std::nullopt;
+  out.choice({5, "status"}, index, {"invalid", "failed", "done", "pending"});
+  out.text({7, "message"}, message);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -16,4 +16,9 @@ void BackseatControl::encode(nmea::SentenceWriter& out) const {
   writeFlag(backseat_in_control, out);
 }
 
+void BackseatControl::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.flag({2, "backseat_in_control"}, backseat_in_control);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

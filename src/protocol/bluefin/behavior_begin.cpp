@@ -20,4 +20,12 @@ void BehaviorBegin::encode(nmea::SentenceWriter& out) const {
   out.text(behavior_type);
 }
 
+void BehaviorBegin::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.text({2, "dive_file"}, dive_file);
+  out.text({3, "number"}, number);
+  out.text({4, "payload_behavior_id"}, payload_behavior_id);
+  out.text({5, "behavior_type"}, behavior_type);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -13,6 +13,11 @@ std::optional<Mode> code(nmea::FieldReader& in, Mode last) {
 }
 
 template <class Mode>
+std::optional<std::size_t> index(const std::optional<Mode>& mode) {
+  return mode ? std::optional<std::size_t>{static_cast<std::size_t>(*mode)} : std::nullopt;
+}
+
+template <class Mode>
 void writeCode(const std::optional<Mode>& mode, nmea::SentenceWriter& out) {
   if (!mode) return out.blank();
   out.integer(static_cast<std::int64_t>(*mode));
@@ -44,6 +49,17 @@ void BehaviorChange::encode(nmea::SentenceWriter& out) const {
   out.number(speed, kLengthDecimals);
   writeCode(speed_mode, out);
   writeCode(horizontal_mode, out);
+}
+
+void BehaviorChange::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.number({2, "horizontal"}, horizontal);
+  out.number({3, "vertical"}, vertical);
+  out.choice({4, "vertical_mode"}, index(vertical_mode),
+             {"depth_m", "altitude_m", "pitch_deg", "elevator_deg"});
+  out.number({5, "speed"}, speed);
+  out.choice({6, "speed_mode"}, index(speed_mode), {"rpm", "m_s"});
+  out.choice({7, "horizontal_mode"}, index(horizontal_mode), {"heading_deg", "rudder_deg"});
 }
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -22,4 +22,12 @@ void Ctd::encode(nmea::SentenceWriter& out) const {
   out.timeOfDay(measured_at);
 }
 
+void Ctd::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.number({2, "conductivity", unit::kMicrosiemensPerCentimeter}, conductivity_us_cm);
+  out.number({3, "temperature", unit::kCelsius}, temperature_c);
+  out.number({4, "pressure", unit::kKilopascals}, pressure_kpa);
+  out.time({5, "measured_at"}, measured_at);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

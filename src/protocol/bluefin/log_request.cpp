@@ -15,4 +15,9 @@ void LogRequest::encode(nmea::SentenceWriter& out) const {
   out.text(*on ? "ON" : "OFF");
 }
 
+void LogRequest::describe(FieldVisitor& out) const {
+  out.text({1, "sentence"}, sentence);
+  out.flag({2, "on"}, on);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -18,4 +18,11 @@ void MissionStatus::encode(nmea::SentenceWriter& out) const {
   out.text(details);
 }
 
+void MissionStatus::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.text({2, "dive_file"}, dive_file);
+  out.text({3, "status"}, status);
+  out.text({4, "details"}, details);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

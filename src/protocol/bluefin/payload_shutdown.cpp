@@ -10,4 +10,6 @@ PayloadShutdown PayloadShutdown::decode(nmea::FieldReader& in) {
 
 void PayloadShutdown::encode(nmea::SentenceWriter& out) const { out.timeOfDay(sent_at); }
 
+void PayloadShutdown::describe(FieldVisitor& out) const { out.time({1, "sent_at"}, sent_at); }
+
 }  // namespace frontseat_driver::protocol::bluefin

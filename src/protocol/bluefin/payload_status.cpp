@@ -18,4 +18,10 @@ void PayloadStatus::encode(nmea::SentenceWriter& out) const {
   out.text(message);
 }
 
+void PayloadStatus::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.flag({2, "ok"}, ok);
+  out.text({3, "message"}, message);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -14,4 +14,9 @@ void PayloadVersion::encode(nmea::SentenceWriter& out) const {
   out.text(version);
 }
 
+void PayloadVersion::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.text({2, "version"}, version);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -18,4 +18,10 @@ void RawVehicleSpeed::encode(nmea::SentenceWriter& out) const {
   out.number(water_speed_m_s, kVelocityDecimals);
 }
 
+void RawVehicleSpeed::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.number({2, "thruster", unit::kRpm}, thruster_rpm);
+  out.number({3, "water_speed", unit::kMetersPerSecond}, water_speed_m_s);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

@@ -16,4 +16,9 @@ void SoundSpeed::encode(nmea::SentenceWriter& out) const {
   out.number(sound_speed_m_s, kLengthDecimals);
 }
 
+void SoundSpeed::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.number({2, "sound_speed", unit::kMetersPerSecond}, sound_speed_m_s);
+}
+
 }  // namespace frontseat_driver::protocol::bluefin

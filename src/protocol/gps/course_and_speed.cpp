@@ -28,4 +28,11 @@ void CourseAndSpeed::encode(nmea::SentenceWriter& out) const {
   out.text(speed_kn ? "A" : "N");
 }
 
+void CourseAndSpeed::describe(FieldVisitor& out) const {
+  out.number({1, "course_true", unit::kDegrees}, course_true_deg);
+  out.number({3, "course_magnetic", unit::kDegrees}, course_magnetic_deg);
+  out.number({5, "speed", unit::kKnots}, speed_kn);
+  out.number({7, "speed", unit::kKilometersPerHour}, speed_km_h);
+}
+
 }  // namespace frontseat_driver::protocol::gps

@@ -31,4 +31,14 @@ void Fix::encode(nmea::SentenceWriter& out) const {
   out.blank();
 }
 
+void Fix::describe(FieldVisitor& out) const {
+  out.time({1, "measured_at"}, measured_at);
+  out.position({2, "position"}, position);
+  out.integer({6, "quality"}, quality);
+  out.integer({7, "satellites"}, satellites);
+  out.number({8, "hdop"}, hdop);
+  out.number({9, "altitude", unit::kMeters}, altitude_m);
+  out.number({11, "geoid_separation", unit::kMeters}, geoid_separation_m);
+}
+
 }  // namespace frontseat_driver::protocol::gps

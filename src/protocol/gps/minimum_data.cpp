@@ -27,4 +27,13 @@ void MinimumData::encode(nmea::SentenceWriter& out) const {
   out.text(valid ? "A" : "N");
 }
 
+void MinimumData::describe(FieldVisitor& out) const {
+  out.time({1, "measured_at"}, measured_at);
+  out.flag({2, "valid"}, valid);
+  out.position({3, "position"}, position);
+  out.number({7, "speed", unit::kKnots}, speed_kn);
+  out.number({8, "course", unit::kDegrees}, course_deg);
+  out.date({9, "date"}, date);
+}
+
 }  // namespace frontseat_driver::protocol::gps

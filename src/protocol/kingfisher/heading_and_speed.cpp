@@ -16,4 +16,9 @@ void HeadingAndSpeed::encode(nmea::SentenceWriter& out) const {
   out.number(speed_m_s, kLengthDecimals);
 }
 
+void HeadingAndSpeed::describe(FieldVisitor& out) const {
+  out.number({1, "heading", unit::kDegrees}, heading_deg);
+  out.number({2, "speed", unit::kMetersPerSecond}, speed_m_s);
+}
+
 }  // namespace frontseat_driver::protocol::kingfisher

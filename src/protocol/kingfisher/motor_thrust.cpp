@@ -14,4 +14,9 @@ void MotorThrust::encode(nmea::SentenceWriter& out) const {
   out.number(starboard_pct, decimals);
 }
 
+void MotorThrust::describe(FieldVisitor& out) const {
+  out.number({1, "port", unit::kPercent}, port_pct);
+  out.number({2, "starboard", unit::kPercent}, starboard_pct);
+}
+
 }  // namespace frontseat_driver::protocol::kingfisher

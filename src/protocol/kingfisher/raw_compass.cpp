@@ -24,4 +24,13 @@ void RawCompass::encode(nmea::SentenceWriter& out) const {
   out.timeOfDay(measured_at);
 }
 
+void RawCompass::describe(FieldVisitor& out) const {
+  out.time({1, "sent_at"}, sent_at);
+  out.integer({2, "compass_id"}, compass_id);
+  out.number({3, "heading", unit::kDegrees}, heading_deg);
+  out.number({4, "pitch", unit::kDegrees}, pitch_deg);
+  out.number({5, "roll", unit::kDegrees}, roll_deg);
+  out.time({6, "measured_at"}, measured_at);
+}
+
 }  // namespace frontseat_driver::protocol::kingfisher

@@ -16,4 +16,9 @@ void ThrustAndYawRate::encode(nmea::SentenceWriter& out) const {
   out.number(thrust_pct, decimals);
 }
 
+void ThrustAndYawRate::describe(FieldVisitor& out) const {
+  out.number({1, "yaw_rate", unit::kTurnRate}, yaw_rate);
+  out.number({2, "thrust", unit::kPercent}, thrust_pct);
+}
+
 }  // namespace frontseat_driver::protocol::kingfisher

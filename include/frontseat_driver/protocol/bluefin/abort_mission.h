@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BPABT,hhmmss.sss,c--c,a*hh
 struct AbortMission {
+  static constexpr std::string_view kTitle = "abort of the mission";
   static constexpr std::string_view kTalker = "BP";
   static constexpr std::string_view kFormatter = "ABT";
 
@@ -22,6 +24,7 @@ struct AbortMission {
 
   static AbortMission decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 /// $BFACK,hhmmss.sss,c-c,hhmmss.sss,iiii,s,c,m-m,*hh
 ///        1          2   3          4    5 6 7
 struct Acknowledgement {
+  static constexpr std::string_view kTitle = "acknowledgement";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "ACK";
 
@@ -27,6 +29,7 @@ struct Acknowledgement {
 
   static Acknowledgement decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFMBS,hhmmss.sss,d--d,n,i--i,t--t*hh
 struct BehaviorBegin {
+  static constexpr std::string_view kTitle = "behavior begins";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "MBS";
 
@@ -25,6 +27,7 @@ struct BehaviorBegin {
 
   static BehaviorBegin decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol::bluefin {
 /// $BPRMB,hhmmss.sss,h.h,d.d,dm,v.v,vm,hm*hh
 ///        1          2   3   4  5   6  7
 struct BehaviorChange {
+  static constexpr std::string_view kTitle = "change of behavior";
   static constexpr std::string_view kTalker = "BP";
   static constexpr std::string_view kFormatter = "RMB";
 
@@ -33,6 +35,7 @@ struct BehaviorChange {
 
   static BehaviorChange decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

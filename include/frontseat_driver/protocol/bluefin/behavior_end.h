@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFMBE,hhmmss.sss,d--d,n,i--i,t--t*hh
 struct BehaviorEnd {
+  static constexpr std::string_view kTitle = "behavior ends";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "MBE";
 
@@ -25,6 +27,7 @@ struct BehaviorEnd {
 
   static BehaviorEnd decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

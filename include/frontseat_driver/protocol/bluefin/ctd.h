@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFCTD,hhmmss.sss,c.c,t.t,p.p,hhmmss.sss*hh
 struct Ctd {
+  static constexpr std::string_view kTitle = "conductivity, temperature, pressure";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "CTD";
 
@@ -25,6 +27,7 @@ struct Ctd {
 
   static Ctd decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

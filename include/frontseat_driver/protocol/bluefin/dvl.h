@@ -7,6 +7,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -16,6 +17,7 @@ namespace frontseat_driver::protocol::bluefin {
 /// $BFDVL,hhmmss.sss,x.x,y.y,z.z,r.r,r.r,r.r,r.r,t.t,hhmmss.sss*hh
 ///        1          2   3   4   5   6   7   8   9   10
 struct Dvl {
+  static constexpr std::string_view kTitle = "Doppler velocity log";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "DVL";
 
@@ -29,6 +31,7 @@ struct Dvl {
 
   static Dvl decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BPLOG,rrr,ON*hh
 struct LogRequest {
+  static constexpr std::string_view kTitle = "log request";
   static constexpr std::string_view kTalker = "BP";
   static constexpr std::string_view kFormatter = "LOG";
 
@@ -22,6 +24,7 @@ struct LogRequest {
 
   static LogRequest decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 /// $BFMIS,hhmmss.sss,d--d,t--t,a--a*hh
 ///        1          2    3    4
 struct MissionStatus {
+  static constexpr std::string_view kTitle = "mission status";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "MIS";
 
@@ -24,6 +26,7 @@ struct MissionStatus {
 
   static MissionStatus decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

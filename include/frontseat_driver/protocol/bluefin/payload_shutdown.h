@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFSHT,hhmmss.sss*hh
 struct PayloadShutdown {
+  static constexpr std::string_view kTitle = "payload power goes off";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "SHT";
 
@@ -20,6 +22,7 @@ struct PayloadShutdown {
 
   static PayloadShutdown decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BPSTS,hhmmss.sss,f,m--m*hh
 struct PayloadStatus {
+  static constexpr std::string_view kTitle = "status of the payload";
   static constexpr std::string_view kTalker = "BP";
   static constexpr std::string_view kFormatter = "STS";
 
@@ -22,6 +24,7 @@ struct PayloadStatus {
 
   static PayloadStatus decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BPVER,hhmmss.sss,v-v*hh
 struct PayloadVersion {
+  static constexpr std::string_view kTitle = "interface version of the payload";
   static constexpr std::string_view kTalker = "BP";
   static constexpr std::string_view kFormatter = "VER";
 
@@ -21,6 +23,7 @@ struct PayloadVersion {
 
   static PayloadVersion decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFRVL,hhmmss.sss,r.r,s.s*hh
 struct RawVehicleSpeed {
+  static constexpr std::string_view kTitle = "thruster and water speed";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "RVL";
 
@@ -23,6 +25,7 @@ struct RawVehicleSpeed {
 
   static RawVehicleSpeed decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFSVS,hhmmss.sss,s.s*hh
 struct SoundSpeed {
+  static constexpr std::string_view kTitle = "speed of sound";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "SVS";
 
@@ -22,6 +24,7 @@ struct SoundSpeed {
 
   static SoundSpeed decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

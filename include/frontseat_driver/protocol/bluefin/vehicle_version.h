@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::bluefin {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::bluefin {
 ///
 /// $BFVER,hhmmss.sss,v-v*hh
 struct VehicleVersion {
+  static constexpr std::string_view kTitle = "interface version of the vehicle";
   static constexpr std::string_view kTalker = "BF";
   static constexpr std::string_view kFormatter = "VER";
 
@@ -21,6 +23,7 @@ struct VehicleVersion {
 
   static VehicleVersion decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::bluefin

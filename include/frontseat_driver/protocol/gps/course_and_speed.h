@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::gps {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::gps {
 /// $GPVTG,c.c,T,c.c,M,s.s,N,s.s,K,m*hh
 ///        1   2 3   4 5   6 7   8 9
 struct CourseAndSpeed {
+  static constexpr std::string_view kTitle = "GPS course and speed";
   static constexpr std::string_view kFormatter = "VTG";
 
   std::optional<double> course_true_deg;
@@ -23,6 +25,7 @@ struct CourseAndSpeed {
 
   static CourseAndSpeed decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::gps

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::gps {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol::gps {
 /// $GPGGA,hhmmss.ss,llll.ll,a,yyyyy.yy,b,q,nn,h.h,a.a,M,g.g,M,t.t,iiii*hh
 ///        1         2       3 4        5 6 7  8   9  10 11 12 13  14
 struct Fix {
+  static constexpr std::string_view kTitle = "GPS fix";
   static constexpr std::string_view kFormatter = "GGA";
 
   std::optional<nmea::TimeOfDay> measured_at;  ///< UTC
@@ -28,6 +30,7 @@ struct Fix {
 
   static Fix decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::gps

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::gps {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol::gps {
 /// $GPRMC,hhmmss.ss,A,llll.ll,a,yyyyy.yy,b,s.s,c.c,ddmmyy,v.v,e,m*hh
 ///        1         2 3       4 5        6 7   8   9      10  11 12
 struct MinimumData {
+  static constexpr std::string_view kTitle = "GPS position, velocity, date";
   static constexpr std::string_view kFormatter = "RMC";
 
   std::optional<nmea::TimeOfDay> measured_at;  ///< UTC
@@ -26,6 +28,7 @@ struct MinimumData {
 
   static MinimumData decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::gps

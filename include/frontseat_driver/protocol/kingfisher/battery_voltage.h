@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::kingfisher {
 /// $CPRBS,hhmmss.sss,i,v.v,l.l,h.h,t.t*hh
 ///        1          2 3   4   5   6
 struct BatteryVoltage {
+  static constexpr std::string_view kTitle = "battery";
   static constexpr std::string_view kTalker = "CP";
   static constexpr std::string_view kFormatter = "RBS";
 
@@ -23,9 +25,11 @@ struct BatteryVoltage {
   std::optional<double> lowest_cell_v;
   std::optional<double> highest_cell_v;
   std::optional<double> temperature_c;
+  bool blank_id = false;  ///< the field of the id is there, without a value
 
   static BatteryVoltage decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher

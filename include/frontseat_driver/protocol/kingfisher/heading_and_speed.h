@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::kingfisher {
 ///
 /// $PYDEV,h,s.s*hh
 struct HeadingAndSpeed {
+  static constexpr std::string_view kTitle = "command: heading and speed";
   static constexpr std::string_view kTalker = "PY";
   static constexpr std::string_view kFormatter = "DEV";
 
@@ -21,6 +23,7 @@ struct HeadingAndSpeed {
 
   static HeadingAndSpeed decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::kingfisher {
 ///
 /// $PYDIR,l.l,r.r*hh
 struct MotorThrust {
+  static constexpr std::string_view kTitle = "command: thrust of each motor";
   static constexpr std::string_view kTalker = "PY";
   static constexpr std::string_view kFormatter = "DIR";
 
@@ -22,6 +24,7 @@ struct MotorThrust {
 
   static MotorThrust decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher

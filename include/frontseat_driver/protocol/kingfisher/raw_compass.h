@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -14,6 +15,7 @@ namespace frontseat_driver::protocol::kingfisher {
 /// $CPRCM,hhmmss.sss,i,h.h,p.p,r.r,hhmmss.sss*hh
 ///        1          2 3   4   5   6
 struct RawCompass {
+  static constexpr std::string_view kTitle = "compass";
   static constexpr std::string_view kTalker = "CP";
   static constexpr std::string_view kFormatter = "RCM";
 
@@ -26,6 +28,7 @@ struct RawCompass {
 
   static RawCompass decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher

@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -15,6 +16,7 @@ namespace frontseat_driver::protocol::kingfisher {
 /// $CPRIM,hhmmss.sss,x.x,y.y,z.z,x.x,y.y,z.z,hhmmss.sss*hh
 ///        1          2   3   4   5   6   7   8
 struct RawImu {
+  static constexpr std::string_view kTitle = "inertial sensor";
   static constexpr std::string_view kTalker = "CP";
   static constexpr std::string_view kFormatter = "RIM";
 
@@ -31,6 +33,7 @@ struct RawImu {
 
   static RawImu decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher

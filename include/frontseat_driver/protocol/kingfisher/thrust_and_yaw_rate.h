@@ -6,6 +6,7 @@
 
 #include "frontseat_driver/nmea/field_reader.h"
 #include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/protocol/field_visitor.h"
 
 namespace frontseat_driver::protocol::kingfisher {
 
@@ -13,6 +14,7 @@ namespace frontseat_driver::protocol::kingfisher {
 ///
 /// $PYDEP,y.y,t.t*hh
 struct ThrustAndYawRate {
+  static constexpr std::string_view kTitle = "command: thrust and rate of turn";
   static constexpr std::string_view kTalker = "PY";
   static constexpr std::string_view kFormatter = "DEP";
 
@@ -22,6 +24,7 @@ struct ThrustAndYawRate {
 
   static ThrustAndYawRate decode(nmea::FieldReader& in);
   void encode(nmea::SentenceWriter& out) const;
+  void describe(FieldVisitor& out) const;
 };
 
 }  // namespace frontseat_driver::protocol::kingfisher
