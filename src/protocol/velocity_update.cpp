@@ -1,12 +1,19 @@
 #include "frontseat_driver/protocol/velocity_update.h"
 
+#include <cmath>
+#include <optional>
+
 #include "fields.h"
 
 namespace frontseat_driver::protocol {
 namespace {
 
-/// A Sandshark's rates are differences of angles: they jump where the heading wraps.
-std::optional<double> rate(nmea::FieldReader& in) { return in.numberIn(-360.0, 360.0); }
+/// A Sandshark's rates are differences of angles, which jump where the heading wraps: no rate, but
+/// no fault of the sentence either, since a healthy vehicle does it at every wrap.
+std::optional<double> rate(nmea::FieldReader& in) {
+  const std::optional<double> rate_deg_s = in.number();
+  return rate_deg_s && std::abs(*rate_deg_s) > 360.0 ? std::nullopt : rate_deg_s;
+}
 
 }  // namespace
 

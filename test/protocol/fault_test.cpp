@@ -38,11 +38,7 @@ const Row kRows[] = {
      11, "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,,000000"},
     {"nvg_time_of_solution", "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,5,240000", Fault::OutOfRange,
      12, "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,5,"},
-    {"nvr_pitch_rate_jumps", "BFNVR,000000,1,2,3,360.1,5,6", Fault::OutOfRange, 5,
-     "BFNVR,000000,1,2,3,,5,6"},
-    {"nvr_roll_rate_jumps", "BFNVR,000000,1,2,3,4,-360.1,6", Fault::OutOfRange, 6,
-     "BFNVR,000000,1,2,3,4,,6"},
-    {"nvr_yaw_rate_jumps", "BFNVR,000000,1,2,3,4,5,-7197.3", Fault::OutOfRange, 7,
+    {"nvr_yaw_rate_text", "BFNVR,000000,1,2,3,4,5,fast", Fault::BadValue, 7,
      "BFNVR,000000,1,2,3,4,5,"},
     {"ack_status_4", "BFACK,000000,RMB,000000,,4,0,m,", Fault::OutOfRange, 5,
      "BFACK,000000,RMB,000000,,,0,m,"},
@@ -130,6 +126,17 @@ TEST(Blank, NavigationHasNothing) {
   const auto reading = line.decoded();
   ASSERT_TRUE(reading);
   EXPECT_TRUE(same(reading->message, NavigationUpdate{}));
+}
+
+TEST(Rates, ThatJumpAreNoneAndNoFault) {
+  const Line jumps{"BFNVR,000000,1,2,3,360.1,-360.1,-7197.3"};
+  const auto reading = jumps.decoded();
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->faults.count, 0);
+  EXPECT_TRUE(same(reading->message, Line{"BFNVR,000000,1,2,3,,,"}.decoded()->message));
+  const auto fast = std::get<VelocityUpdate>(Line{"BFNVR,0,1,2,3,360,0,-360"}.decoded()->message);
+  EXPECT_EQ(fast.pitch_rate_deg_s, 360.0);
+  EXPECT_EQ(fast.yaw_rate_deg_s, -360.0);
 }
 
 TEST(Position, OfASandsharkIsSplitFromTheLeft) {
