@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "frontseat_driver/nmea/sentence_writer.h"
+#include "frontseat_driver/session/sentence_text.h"
 
 namespace frontseat_driver::ros_layer {
 
@@ -54,8 +54,11 @@ std::string readInterfaceVersion(PrivateParameters& in, const std::string& fallb
   constexpr const char* kAccepted =
       "a number or a text of 1 to 20 printable ASCII characters without comma, asterisk and $";
   const std::string version = in.textOrNumber("interface_version", fallback, kAccepted);
-  if (version.empty() || version.size() > 20 || !nmea::isFieldText(version)) {
-    in.refuse("interface_version", kAccepted);
+  const auto text = session::toSentenceText(version);
+  if (!text || version.empty() || version.size() > 20) in.refuse("interface_version", kAccepted);
+  if (text->lowered) {
+    in.refuse("interface_version",
+              "a text without RMB, LOG, ABT, STS and VER, which a vehicle takes for commands,");
   }
   return version;
 }
@@ -85,6 +88,10 @@ session::NmeaOptions readSession(PrivateParameters& in) {
   session.interface_version = readInterfaceVersion(in, session.interface_version);
   session.log_sentences = readLogSentences(in, session.log_sentences);
   session.use_acks = in.boolean("use_acks", session.use_acks);
+  const bool is_boat = session.dialect == Dialect::Kingfisher;
+  if (session.log_sentences.empty() && !session.use_acks && !is_boat) {
+    in.refuse("log_sentences", "at least one sentence name where use_acks is false");
+  }
   session.commands_enabled = in.boolean("commands_enabled", session.commands_enabled);
   session.control_hook = in.choice(
       "control_hook", session.control_hook,

@@ -296,6 +296,10 @@ const Refused kRefused[] = {
     {"version_boolean", "interface_version", false,
      "parameter interface_version is false: a number or a text of 1 to 20 printable ASCII "
      "characters without comma, asterisk and $ is accepted"},
+    {"version_with_a_command", "interface_version", "LOGGER 2",
+     "parameter interface_version is \"LOGGER 2\": a text without RMB, LOG, ABT, STS and VER, "
+     "which "
+     "a vehicle takes for commands, is accepted"},
     {"log_sentence_small", "log_sentences", list({"NVG", "nvr"}),
      "parameter log_sentences is [\"NVG\", \"nvr\"]: a list of sentence names of three capitals, "
      "[NVG, NVR], is accepted"},
@@ -454,6 +458,16 @@ TEST(Parameters, ThatContradictEachOtherNameBothLimits) {
   params["reconnect_max"] = 1.0;
   EXPECT_EQ(errorOf(params),
             "parameter reconnect_max is 1: a number from reconnect_min, 2, to 3600 s is accepted");
+}
+
+TEST(Parameters, ThatLeaveASandsharkNothingToSayAreRefused) {
+  XmlRpcValue params = only("use_acks", false);
+  params["log_sentences"] = list({});
+  EXPECT_EQ(errorOf(params),
+            "parameter log_sentences is []: at least one sentence name where use_acks is false is "
+            "accepted");
+  params["dialect"] = "kingfisher";  // it says everything unasked
+  EXPECT_EQ(errorOf(params), "accepted");
 }
 
 TEST(Parameters, OfLongValuesStayOnALine) {
