@@ -54,6 +54,7 @@ void MessageBuilder::reset() {
   raw_imu_.reset();
   position_accepted_ = false;
   stamper_.reset();
+  arrivals_ = {};
 }
 
 void MessageBuilder::take(const vehicle::ClockSample& clock, const vehicle::Now& arrival) {
@@ -68,18 +69,21 @@ void MessageBuilder::take(const vehicle::GpsVelocity& velocity, const vehicle::N
   if (velocity.measured_at) stamper_.take(*velocity.measured_at, TimeScale::Utc, arrival);
 }
 
-void MessageBuilder::take(const vehicle::Navigation& navigation, const vehicle::Now& arrival) {
+void MessageBuilder::take(const vehicle::Navigation& navigation, const vehicle::Now& heard) {
+  const vehicle::Now arrival = arrivals_.take(heard);
   navigation_ = {navigation, arrival, vehicleStamp(navigation.measured_at, arrival)};
   const std::optional<vehicle::Position>& position = navigation.position;
   position_accepted_ = position && isUsable(*position) && filter_.accept(*position, arrival.steady);
   if (position_accepted_ && !datum_) setDatum(*position);
 }
 
-void MessageBuilder::take(const vehicle::Velocity& velocity, const vehicle::Now& arrival) {
+void MessageBuilder::take(const vehicle::Velocity& velocity, const vehicle::Now& heard) {
+  const vehicle::Now arrival = arrivals_.take(heard);
   velocity_ = {velocity, arrival, vehicleStamp(velocity.measured_at, arrival)};
 }
 
-void MessageBuilder::take(const vehicle::RawImu& imu, const vehicle::Now& arrival) {
+void MessageBuilder::take(const vehicle::RawImu& imu, const vehicle::Now& heard) {
+  const vehicle::Now arrival = arrivals_.take(heard);
   raw_imu_ = {imu, arrival, vehicleStamp(imu.measured_at, arrival)};
 }
 

@@ -19,6 +19,7 @@
 #include <array>
 #include <optional>
 
+#include "arrival_clock.h"
 #include "frontseat_driver/protocol/message.h"
 #include "frontseat_driver/vehicle/clock.h"
 #include "frontseat_driver/vehicle/event.h"
@@ -60,9 +61,9 @@ class MessageBuilder {
   void take(const vehicle::ClockSample& clock, const vehicle::Now& arrival);
   void take(const vehicle::GpsFix& fix, const vehicle::Now& arrival);
   void take(const vehicle::GpsVelocity& velocity, const vehicle::Now& arrival);
-  void take(const vehicle::Navigation& navigation, const vehicle::Now& arrival);
-  void take(const vehicle::Velocity& velocity, const vehicle::Now& arrival);
-  void take(const vehicle::RawImu& imu, const vehicle::Now& arrival);
+  void take(const vehicle::Navigation& navigation, const vehicle::Now& heard);
+  void take(const vehicle::Velocity& velocity, const vehicle::Now& heard);
+  void take(const vehicle::RawImu& imu, const vehicle::Now& heard);
 
   /// `odom`, from the latest navigation with velocity as far as it is fresh. Nothing without a
   /// position that is usable and not a jump.
@@ -199,6 +200,7 @@ class MessageBuilder {
   Parameters parameters_;
   std::optional<protocol::Dialect> dialect_;
   Stamper stamper_;
+  ArrivalClock arrivals_;
   std::array<StampGuard, kTopicCount> guards_;
   JumpFilter filter_;
   std::optional<vehicle::Position> datum_;

@@ -17,11 +17,6 @@ using namespace std::chrono_literals;
 constexpr auto kWarnAtMostEvery = 5s;
 constexpr auto kRefusalTold = 3s;
 
-vehicle::Now readClocks() {
-  return {std::chrono::steady_clock::now(), std::chrono::system_clock::now().time_since_epoch(),
-          toUtcTime(ros::Time::now())};
-}
-
 session::NmeaOptions sessionOptions(const Parameters& parameters) {
   session::NmeaOptions options = parameters.session;
   options.listen_only = parameters.source == Source::Topic;
@@ -57,21 +52,26 @@ NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::
       compass_check_(parameters) {
   health_.endpoint = configured_endpoint_;
   health_.last_failure = "not tried yet";
-  reportHealth(readClocks());
+  reportHealth(clocks_.read());
   driver::Listener& listener = *this;
   if (parameters.source == Source::Topic) {
-    replay_ = std::make_unique<Replay>(node, session_, listener);
+    replay_ = std::make_unique<Replay>(session_, listener, [this] { startRecordAgain(); });
   } else {
-    driver_ = std::make_unique<driver::Driver>(parameters.link, session_, listener, readClocks);
+    driver_ = std::make_unique<driver::Driver>(parameters.link, session_, listener,
+                                               [this] { return clocks_.read(); });
   }
   const auto post_task = [this](SessionTask task) { post(std::move(task)); };
   input_ = std::make_unique<CommandInput>(node, name_, parameters, session_, publisher_, post_task);
   services_ = std::make_unique<CommandServices>(node, parameters, session_, publisher_, post_task);
-  if (driver_) driver_->start();
+  subscribers_ = std::make_unique<ExpectedSubscribers>(node, publisher_.publishers(), [=] {
+    if (driver_) driver_->start();
+    if (replay_) replay_->start(node);
+  });
 }
 
 // Tasks refer to the input and the services, so these stay until no task can run any more.
 NmeaBridge::~NmeaBridge() {
+  subscribers_->close();
   services_->close();
   input_->close();
   if (driver_) driver_->stop();
@@ -84,6 +84,17 @@ void NmeaBridge::post(SessionTask task) {
       [this, task = std::move(task)](const vehicle::Now& now) { task(now, driver_->output()); });
 }
 
+void NmeaBridge::startRecordAgain() {
+  publisher_.reset();
+  last_heard_.reset();
+  next_jump_warning_ = {};
+}
+
+// A record is a record: what is replayed keeps its name.
+std::string NmeaBridge::connection() const {
+  return replay_ ? replay_->connection() : "connection_" + std::to_string(connects_);
+}
+
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
   ROS_INFO("%s: connected to %s", name_.c_str(), endpoint.c_str());
   ++connects_;
@@ -91,7 +102,6 @@ void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoin
   health_.connected = true;
   health_.endpoint = endpoint;
   last_navigation_.reset();
-  if (replay_ && connects_ > 1) publisher_.reset();
   publishLink(now);
 }
 
@@ -120,11 +130,11 @@ void NmeaBridge::onConnectFailed(const vehicle::Now& now, const std::string& rea
 void NmeaBridge::onHeard(const vehicle::Now& now, std::string_view line) {
   last_heard_ = now.steady;
   rates_.count(line, now.steady);
-  publisher_.publishReceived(now, line);
+  publisher_.publishReceived(now, connection(), line);
 }
 
 void NmeaBridge::onSent(const vehicle::Now& now, std::string_view line) {
-  publisher_.publishSent(now, line);
+  publisher_.publishSent(now, connection(), line);
 }
 
 void NmeaBridge::onEvent(const vehicle::Now& now, const vehicle::Event& event) {

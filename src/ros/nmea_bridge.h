@@ -12,8 +12,10 @@
 #include "command_services.h"
 #include "compass_check.h"
 #include "diagnostics.h"
+#include "expected_subscribers.h"
 #include "frontseat_driver/driver/driver.h"
 #include "frontseat_driver/session/nmea_session.h"
+#include "host_clocks.h"
 #include "parameters.h"
 #include "replay.h"
 #include "sentence_rates.h"
@@ -46,6 +48,8 @@ class NmeaBridge : private driver::Listener {
   void onTick(const vehicle::Now& now) override;
 
   void post(SessionTask task);
+  void startRecordAgain();
+  std::string connection() const;
   void followDialect();
   void watch(const vehicle::Now& now, const vehicle::Event& event);
   void warnOfJumps(const vehicle::Now& now);
@@ -53,6 +57,7 @@ class NmeaBridge : private driver::Listener {
   void reportHealth(const vehicle::Now& now);
   const char* dialectName() const;
 
+  HostClocks clocks_;
   const std::string name_;
   const std::string configured_endpoint_;
   const std::optional<std::chrono::seconds> configured_leap_seconds_;
@@ -73,6 +78,7 @@ class NmeaBridge : private driver::Listener {
 
   std::unique_ptr<driver::Driver> driver_;  ///< one of the two
   std::unique_ptr<Replay> replay_;
+  std::unique_ptr<ExpectedSubscribers> subscribers_;
   std::unique_ptr<CommandInput> input_;
   std::unique_ptr<CommandServices> services_;
 };

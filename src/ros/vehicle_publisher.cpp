@@ -1,11 +1,11 @@
 #include "vehicle_publisher.h"
 
 #include <frontseat_driver/Sentence.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "convert.h"
 #include "topics.h"
@@ -18,9 +18,13 @@ namespace {
 constexpr std::uint32_t kQueue = 100;
 // The record must miss nothing at any rate a vehicle can send: half a second at 20,000 a second.
 constexpr std::uint32_t kRecordQueue = 10000;
-constexpr bool kLatched = true;
+// A record may be played as fast as it can be read, and then all must wait for who is slowest.
+constexpr std::uint32_t kUnlimited = 0;
 
-bool wanted(const ros::Publisher& publisher) { return publisher.getNumSubscribers() > 0; }
+bool isLatched(VehicleTopic topic) {
+  return topic == VehicleTopic::MissionStatus || topic == VehicleTopic::Control ||
+         topic == VehicleTopic::InterfaceVersion || topic == VehicleTopic::Shutdown;
+}
 
 // Shared, so that a nodelet in the same manager gets it without a copy.
 template <class Message>
@@ -28,16 +32,12 @@ void publishShared(const ros::Publisher& publisher, Message message) {
   publisher.publish(boost::make_shared<const Message>(std::move(message)));
 }
 
-template <class Message>
-void publishIfAny(const ros::Publisher& publisher, std::optional<Message> message) {
-  if (message) publishShared(publisher, *std::move(message));
-}
-
 void publishSentence(const ros::Publisher& publisher, const vehicle::Now& now,
-                     std::string_view line) {
-  if (!wanted(publisher)) return;
+                     const std::string& connection, std::string_view line) {
+  if (publisher.getNumSubscribers() == 0) return;
   Sentence sentence;
   sentence.header.stamp = toRosTime(now.stamp);
+  sentence.header.frame_id = connection;
   sentence.sentence = std::string{line};
   publishShared(publisher, std::move(sentence));
 }
@@ -45,121 +45,73 @@ void publishSentence(const ros::Publisher& publisher, const vehicle::Now& now,
 }  // namespace
 
 VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const Parameters& parameters)
-    : builder_(parameters),
-      publish_tf_(parameters.publish_tf),
-      odom_(node.advertise<nav_msgs::Odometry>(topics::kOdom, kQueue)),
-      imu_(node.advertise<sensor_msgs::Imu>(topics::kImuData, kQueue)),
-      raw_imu_(node.advertise<sensor_msgs::Imu>(topics::kImuDataRaw, kQueue)),
-      compass_(node.advertise<sensor_msgs::Imu>(topics::kCompassData, kQueue)),
-      nav_fix_(node.advertise<sensor_msgs::NavSatFix>(topics::kNavFix, kQueue)),
-      nav_velocity_(node.advertise<geometry_msgs::TwistStamped>(topics::kNavVelocity, kQueue)),
-      depth_(node.advertise<geometry_msgs::PoseWithCovarianceStamped>(topics::kDepth, kQueue)),
-      altitude_(node.advertise<sensor_msgs::Range>(topics::kAltitude, kQueue)),
-      battery_(node.advertise<sensor_msgs::BatteryState>(topics::kBattery, kQueue)),
-      gps_fix_(node.advertise<sensor_msgs::NavSatFix>(topics::kGpsFix, kQueue)),
-      gps_velocity_(node.advertise<geometry_msgs::TwistStamped>(topics::kGpsVelocity, kQueue)),
-      gps_time_(node.advertise<sensor_msgs::TimeReference>(topics::kGpsTimeReference, kQueue)),
-      vehicle_time_(node.advertise<sensor_msgs::TimeReference>(topics::kVehicleTime, kQueue)),
-      mission_status_(node.advertise<MissionStatus>(topics::kMissionStatus, kQueue, kLatched)),
-      control_(node.advertise<ControlStatus>(topics::kControl, kQueue, kLatched)),
-      interface_version_(
-          node.advertise<InterfaceVersion>(topics::kInterfaceVersion, kQueue, kLatched)),
-      shutdown_(node.advertise<ShutdownNotice>(topics::kShutdown, kQueue, kLatched)),
-      ack_(node.advertise<CommandAck>(topics::kAck, kQueue)),
-      link_(node.advertise<LinkStatus>(topics::kLink, kQueue, kLatched)),
-      received_(node.advertise<Sentence>(topics::kNmeaReceived, kRecordQueue)),
-      sent_(node.advertise<Sentence>(topics::kNmeaSent, kRecordQueue)) {
+    : messages_(parameters), publish_tf_(parameters.publish_tf) {
+  const bool replay = parameters.source == Source::Topic;
+  const std::uint32_t queue = replay ? kUnlimited : kQueue;
+  const auto advertise = [&](VehicleTopic topic, const char* name, auto message) {
+    at(topic) = node.advertise<decltype(message)>(name, queue, isLatched(topic));
+  };
+  advertise(VehicleTopic::Odom, topics::kOdom, nav_msgs::Odometry{});
+  advertise(VehicleTopic::ImuData, topics::kImuData, sensor_msgs::Imu{});
+  advertise(VehicleTopic::ImuDataRaw, topics::kImuDataRaw, sensor_msgs::Imu{});
+  advertise(VehicleTopic::CompassData, topics::kCompassData, sensor_msgs::Imu{});
+  advertise(VehicleTopic::NavFix, topics::kNavFix, sensor_msgs::NavSatFix{});
+  advertise(VehicleTopic::NavVelocity, topics::kNavVelocity, geometry_msgs::TwistStamped{});
+  advertise(VehicleTopic::Depth, topics::kDepth, geometry_msgs::PoseWithCovarianceStamped{});
+  advertise(VehicleTopic::Altitude, topics::kAltitude, sensor_msgs::Range{});
+  advertise(VehicleTopic::Battery, topics::kBattery, sensor_msgs::BatteryState{});
+  advertise(VehicleTopic::GpsFix, topics::kGpsFix, sensor_msgs::NavSatFix{});
+  advertise(VehicleTopic::GpsVelocity, topics::kGpsVelocity, geometry_msgs::TwistStamped{});
+  advertise(VehicleTopic::GpsTimeReference, topics::kGpsTimeReference,
+            sensor_msgs::TimeReference{});
+  advertise(VehicleTopic::VehicleTime, topics::kVehicleTime, sensor_msgs::TimeReference{});
+  advertise(VehicleTopic::MissionStatus, topics::kMissionStatus, MissionStatus{});
+  advertise(VehicleTopic::Control, topics::kControl, ControlStatus{});
+  advertise(VehicleTopic::InterfaceVersion, topics::kInterfaceVersion, InterfaceVersion{});
+  advertise(VehicleTopic::Shutdown, topics::kShutdown, ShutdownNotice{});
+  advertise(VehicleTopic::Ack, topics::kAck, CommandAck{});
+  if (publish_tf_) advertise(VehicleTopic::Transform, "/tf", tf2_msgs::TFMessage{});
+  link_ = node.advertise<LinkStatus>(topics::kLink, queue, true);
+  const std::uint32_t record_queue = replay ? kUnlimited : kRecordQueue;
+  received_ = node.advertise<Sentence>(topics::kNmeaReceived, record_queue);
+  sent_ = node.advertise<Sentence>(topics::kNmeaSent, record_queue);
   if (!parameters.publish_frd_frames) return;
   vehicle::Now now;
   now.stamp = toUtcTime(ros::Time::now());
-  const auto frames = builder_.helperFrames(now);
+  const auto frames = builder().helperFrames(now);
   static_transforms_.sendTransform(
       std::vector<geometry_msgs::TransformStamped>(frames.begin(), frames.end()));
 }
 
-void VehiclePublisher::publish(const vehicle::Now& arrival, const vehicle::Event& event) {
-  std::visit([&](const auto& told) { take(arrival, told); }, event);
+bool VehiclePublisher::wanted(VehicleTopic topic) const {
+  if (topic == VehicleTopic::Transform) return publish_tf_;
+  return isLatched(topic) || at(topic).getNumSubscribers() > 0;
 }
 
-void VehiclePublisher::publishReceived(const vehicle::Now& now, std::string_view line) const {
-  publishSentence(received_, now, line);
-}
-
-void VehiclePublisher::publishSent(const vehicle::Now& now, std::string_view line) const {
-  publishSentence(sent_, now, line);
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::ClockSample& clock) {
-  builder_.take(clock, arrival);
-  if (wanted(vehicle_time_)) publishShared(vehicle_time_, builder_.vehicleTime(clock, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Navigation& navigation) {
-  builder_.take(navigation, arrival);
-  if (publish_tf_ || wanted(odom_)) publishOdometry();
-  if (wanted(nav_fix_)) publishIfAny(nav_fix_, builder_.navFix());
-  if (wanted(depth_)) publishIfAny(depth_, builder_.depth());
-  if (wanted(altitude_)) publishIfAny(altitude_, builder_.altitude());
-}
-
-void VehiclePublisher::publishOdometry() {
-  auto odometry = builder_.odometry();
-  if (!odometry) return;
-  if (publish_tf_) {
-    const auto transform = builder_.transform(*odometry);
-    if (transform) transforms_.sendTransform(*transform);
+void VehiclePublisher::publish(VehicleTopic topic, VehicleMessage message) {
+  if (auto* transform = std::get_if<geometry_msgs::TransformStamped>(&message)) {
+    tf2_msgs::TFMessage transforms;
+    transforms.transforms.push_back(std::move(*transform));
+    return publishShared(at(topic), std::move(transforms));
   }
-  if (wanted(odom_)) publishShared(odom_, *std::move(odometry));
+  std::visit([&](auto&& any) { publishShared(at(topic), std::forward<decltype(any)>(any)); },
+             std::move(message));
 }
 
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Velocity& velocity) {
-  builder_.take(velocity, arrival);
-  if (wanted(imu_)) publishIfAny(imu_, builder_.imu());
-  if (wanted(nav_velocity_)) publishIfAny(nav_velocity_, builder_.navVelocity());
+void VehiclePublisher::publishReceived(const vehicle::Now& now, const std::string& connection,
+                                       std::string_view line) const {
+  publishSentence(received_, now, connection, line);
 }
 
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::RawImu& imu) {
-  builder_.take(imu, arrival);
-  if (wanted(raw_imu_)) publishIfAny(raw_imu_, builder_.rawImu());
+void VehiclePublisher::publishSent(const vehicle::Now& now, const std::string& connection,
+                                   std::string_view line) const {
+  publishSentence(sent_, now, connection, line);
 }
 
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Compass& compass) {
-  if (wanted(compass_)) publishIfAny(compass_, builder_.compass(compass, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Battery& battery) {
-  if (wanted(battery_)) publishShared(battery_, builder_.battery(battery, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::GpsFix& fix) {
-  builder_.take(fix, arrival);
-  if (wanted(gps_fix_)) publishShared(gps_fix_, builder_.gpsFix(fix, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::GpsVelocity& velocity) {
-  builder_.take(velocity, arrival);
-  if (wanted(gps_velocity_)) publishIfAny(gps_velocity_, builder_.gpsVelocity(velocity, arrival));
-  if (wanted(gps_time_)) publishIfAny(gps_time_, builder_.gpsTime(velocity, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::MissionStatus& mission) {
-  publishShared(mission_status_, builder_.missionStatus(mission, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Control& control) {
-  publishShared(control_, builder_.controlStatus(control, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Acknowledgement& ack) {
-  if (wanted(ack_)) publishShared(ack_, builder_.commandAck(ack, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::InterfaceVersion& version) {
-  publishShared(interface_version_, builder_.interfaceVersion(version, arrival));
-}
-
-void VehiclePublisher::take(const vehicle::Now& arrival, const vehicle::Shutdown& shutdown) {
-  publishShared(shutdown_, builder_.shutdownNotice(shutdown, arrival));
+std::vector<ros::Publisher> VehiclePublisher::publishers() const {
+  std::vector<ros::Publisher> all(topics_.begin(), topics_.end());
+  all.insert(all.end(), {link_, received_, sent_});
+  return all;
 }
 
 }  // namespace frontseat_driver::ros_layer

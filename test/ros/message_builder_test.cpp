@@ -211,13 +211,25 @@ TEST_F(Builder, VelocityIsFreshUpToItsGreatestAge) {
   EXPECT_EQ(odometryOf(boat_, navigationAt(kHarbor), at(2001ms)).twist.covariance[0], kUnknown);
 }
 
-TEST_F(Builder, FreshnessIsOfTheSteadyClock) {
+// A replay has nothing else, and must come to the same messages.
+TEST_F(Builder, FreshnessIsOfTheStamps) {
   boat_.take(someVelocity(), at(0s));
-  Now stepped = at(1s);
-  stepped.utc += 5h;
-  stepped.stamp += 5h;
-  EXPECT_EQ(odometryOf(boat_, navigationAt(kHarbor), stepped).twist.covariance[0],
-            kVelocityVariance);
+  Now later = at(3s);
+  later.steady = at(0s).steady;
+  EXPECT_EQ(odometryOf(boat_, navigationAt(kHarbor), later).twist.covariance[0], kUnknown);
+}
+
+TEST_F(Builder, FreshnessIsOfTheSteadyClockWhileStampsStandStill) {
+  for (const std::chrono::seconds stamp :
+       {0s, -18000s}) {  // as without /clock, and after a step back
+    boat_ = MessageBuilder{parametersFor(Dialect::Kingfisher)};
+    boat_.take(someVelocity(), at(0s));
+    Now now = at(1s);
+    now.stamp = at(0s).stamp + stamp;
+    EXPECT_EQ(odometryOf(boat_, navigationAt(kHarbor), now).twist.covariance[0], kVelocityVariance);
+    now.steady += 1500ms;
+    EXPECT_EQ(odometryOf(boat_, navigationAt(kHarbor), now).twist.covariance[0], kUnknown);
+  }
 }
 
 TEST_F(Builder, BlankHeadingMakesOrientationAndTwistUnknown) {

@@ -242,6 +242,7 @@ void ClosedLoop::navigation(const sim::Truth& truth) {
 
 void ClosedLoop::event(const vehicle::Now& now, const vehicle::Event& event) {
   if (session_.dialect()) builder_.setDialect(*session_.dialect());
+  if (watch.event) watch.event(now, event);
   if (const auto* control = std::get_if<vehicle::Control>(&event)) {
     reason_ = std::string{control->reason};
     commanding_ = control->commanding;
