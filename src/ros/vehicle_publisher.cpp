@@ -14,8 +14,9 @@ namespace frontseat_driver::ros_layer {
 
 namespace {
 
-// A frontseat sends bundles of ten sentences and more in one write: shorter queues lose some.
-constexpr std::uint32_t kQueue = 100;
+// After a network has held a vehicle back for some seconds, hundreds of sentences come at once:
+// shorter queues lose some.
+constexpr std::uint32_t kQueue = 1000;
 // The record must miss nothing at any rate a vehicle can send: half a second at 20,000 a second.
 constexpr std::uint32_t kRecordQueue = 10000;
 // A record may be played as fast as it can be read, and then all must wait for who is slowest.
