@@ -36,6 +36,8 @@ LAUNCHES = (
                           "/shark/frontseat", "/fisher/frontseat"}),
     ("fleet.launch", ["simulate:=false"], {"/fleet", "/shark/frontseat", "/fisher/frontseat"}),
     ("replay.launch", ["bag:=dive.bag"], {"/play", "/frontseat", "/model"}),
+    ("replay.launch", ["bag:=dive.bag", "rate:=unlimited"], {"/play", "/frontseat", "/model"}),
+    ("replay.launch", ["capture:=dive.nmea", "rate:=10"], {"/play", "/frontseat", "/model"}),
 )
 
 
@@ -94,6 +96,23 @@ class Launch(unittest.TestCase):
         config = load("replay.launch", ["bag:=dive.bag"])
         self.assertEqual("topic", parameters(config, "/frontseat")["source"])
         self.assertTrue(config.params["/use_sim_time"].value)
+
+    def test_replay_of_a_bag_drops_nothing(self):
+        for rate, option in (("10", "--rate 10"), ("0.5", "--rate 0.5"),
+                             ("unlimited", "--immediate")):
+            config = load("replay.launch", ["bag:=dive.bag", "rate:=" + rate])
+            play = [node for node in config.nodes if node.name == "play"][0]
+            self.assertEqual(("rosbag", "play"), (play.package, play.type))
+            for wanted in (option, "--queue 0", "--wait-for-subscribers", "--keep-alive", "--clock",
+                           "--bags dive.bag"):
+                self.assertIn(wanted, " ".join(play.args.split()))
+
+    def test_replay_of_a_capture(self):
+        config = load("replay.launch", ["capture:=dive.nmea", "rate:=unlimited",
+                                        "start:=2014-11-19"])
+        given = parameters(config, "/play")
+        self.assertEqual(("dive.nmea", 0.0, "2014-11-19"),
+                         (given["capture"], given["rate"], given["start"]))
 
     def test_models_have_the_sensor_frames(self):
         expected = {"base_link", "imu_link", "gps_link", "compass_0_link", "compass_1_link",

@@ -14,7 +14,7 @@ import rospy
 
 from frontseat_driver.msg import Sentence
 
-from driver_under_test import NodeDriver, Process, Simulator, parameters_for, program, run
+from driver_under_test import PACKAGE, NodeDriver, Process, Simulator, parameters_for, program, run
 from fake_vehicle import wait_until
 
 DIALECTS = ("sandshark", "kingfisher")
@@ -32,8 +32,12 @@ RECORD_PATIENCE_S = 60.0
 
 
 def without_seq(topic, raw):
-    """What must be the same: a message without its count, an acknowledgement also without the time
-    since its command, which is not replayed."""
+    """What must be the same: a message without its count; an acknowledgement also without the time
+    since its command, which is not replayed; a line without its connection, which text lacks."""
+    if topic == "nmea/rx":
+        sentence = Sentence()
+        sentence.deserialize(raw)
+        return sentence.header.stamp, sentence.sentence
     start = 4 if topic == "tf" else 0
     end = len(raw) - 8 if topic == "ack" else len(raw)
     return raw[:start] + raw[start + 4:end]
@@ -137,17 +141,41 @@ class Mission:
         return path, len(lines)
 
 
-class Replay:
-    """The same sentences by rosbag play through a driver that has no vehicle."""
+    def text(self):
+        """The lines as text with times in front, a few comments and some of the other side's."""
+        path = self.bag.replace(".bag", ".nmea")
+        with rosbag.Bag(self.bag) as bag, open(path, "w") as text:
+            text.write("# a capture\n")
+            for lines, (_, message, _) in enumerate(bag.read_messages(), 1):
+                stamp = message.header.stamp
+                text.write("%d.%09d rx %s\n" % (stamp.secs, stamp.nsecs, message.sentence))
+                if lines % 100 == 0:
+                    text.write("%d.%09d tx $BPLOG,ALL,OFF*00\n" % (stamp.secs, stamp.nsecs))
+        return path, lines
 
-    def __init__(self, mission, name, bag, options):
+
+def bag_player(options):
+    def command(mission, namespace, bag):
+        return [program("rosbag", "play"), bag, "--queue=0", "--keep-alive", "--quiet",
+                "--wait-for-subscribers",
+                "%s:=%s/nmea/replay" % (mission.topic, namespace)] + options
+    return command
+
+
+def text_player(_mission, namespace, capture):
+    return [program(PACKAGE, "nmea_replay"), "__ns:=" + namespace, "_capture:=" + capture,
+            "_rate:=0"]
+
+
+class Replay:
+    """The same sentences through a driver that has no vehicle."""
+
+    def __init__(self, mission, name, record, player):
         namespace = mission.namespace + "_" + name
         self.messages = Messages(namespace)
         self._driver = NodeDriver(namespace, {"source": "topic"}, ["/tf:=" + namespace + "/tf"])
         self._began = time.monotonic()
-        self._player = Process([program("rosbag", "play"), bag, "--queue=0", "--keep-alive",
-                                "--wait-for-subscribers", "--quiet",
-                                "%s:=%s/nmea/replay" % (mission.topic, namespace)] + options)
+        self._player = Process(player(mission, namespace, record))
 
     def wait_for(self, lines, timeout_s):
         wait_until(lambda: self.messages.counts()["nmea/rx"] >= lines,
@@ -182,13 +210,13 @@ class Replayed(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def replay(self, name, options, bag_of, timeout_s):
+    def replay(self, name, player, record_of, timeout_s):
         """All that came out, after comparing it with what the driver said live."""
         runs = []
         for mission in self.missions:
-            bag, lines = bag_of(mission)
+            record, lines = record_of(mission)
             self.assertGreater(lines, 0)
-            runs.append((mission, lines, Replay(mission, name, bag, options)))
+            runs.append((mission, lines, Replay(mission, name, record, player)))
         for mission, lines, replay in runs:
             self.addCleanup(replay.stop)
         for mission, lines, replay in runs:
@@ -231,16 +259,19 @@ class Replayed(unittest.TestCase):
 
     def test_at_the_rate_it_was_recorded(self):
         part_s = float(rospy.get_param("~part")) or self.duration_s
-        self.replay("rate_1", ["--rate=1"], lambda mission: mission.part(part_s),
+        self.replay("rate_1", bag_player(["--rate=1"]), lambda mission: mission.part(part_s),
                     2.0 * part_s + 60.0)
 
     def test_ten_times_as_fast(self):
-        self.replay("rate_10", ["--rate=10", "--clock"],
+        self.replay("rate_10", bag_player(["--rate=10", "--clock"]),
                     lambda mission: (mission.bag, mission.lines()), self.duration_s + 60.0)
 
     def test_as_fast_as_it_can_be_read(self):
-        self.replay("unlimited", ["--immediate"],
+        self.replay("unlimited", bag_player(["--immediate"]),
                     lambda mission: (mission.bag, mission.lines()), self.duration_s + 60.0)
+
+    def test_from_text(self):
+        self.replay("text", text_player, Mission.text, self.duration_s + 60.0)
 
 
 if __name__ == "__main__":
