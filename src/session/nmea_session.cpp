@@ -27,6 +27,9 @@ constexpr const char* kUnfilled =
     "what it leaves alone of heading, depth and speed is not known, and parameter "
     "fill_behavior_fields needs it";
 
+// Before a link that takes nothing is offered the next sentence; spacing may be zero.
+constexpr std::chrono::milliseconds kOfferAgain = 5ms;
+
 // Spacing longer than this must not keep the last zero thrust from being sent: see driver::Driver.
 constexpr auto kLastWordsWait = 30ms;
 
@@ -416,7 +419,7 @@ bool NmeaSession::sendCommand(const Now& now, Output& out) {
   const vehicle::Command* command = slot_.due(now.steady);
   if (!command || !permission_.granted()) return false;
   if (out.congested()) {
-    slot_.putOff(now.steady + sendSpacing());
+    slot_.putOff(now.steady + std::max(sendSpacing(), kOfferAgain));
     return false;
   }
   if (!canBeSent(*command, options_.format, present(now))) {
@@ -527,7 +530,10 @@ bool NmeaSession::sendStatus(const Now& now, Output& out) {
 bool NmeaSession::send(const Now& now, nmea::SentenceWriter sentence, Output& out) {
   next_send_ = now.steady + sendSpacing();
   const auto line = sentence.finish();
-  if (!line || !out.send(now, *line)) return false;
+  if (!line || !out.send(now, *line)) {
+    next_send_ = now.steady + std::max(sendSpacing(), kOfferAgain);
+    return false;
+  }
   ++counters_.sentences_sent;
   counters_.bytes_sent += line->size();
   return true;

@@ -915,5 +915,22 @@ TEST_F(Commanding, FillingNeedsToKnowThePresent) {
   EXPECT_THAT(out_.sent.back().sentence, HasSubstr(",90.0000,3.500,0,0.500,1,0*"));
 }
 
+/// Found by fuzzing: the driver's thread took all of a processor.
+TEST_F(NmeaSessionTest, ALinkThatTakesNothingIsNotOfferedItWithoutPause) {
+  for (const bool full : {false, true}) {
+    NmeaOptions options = withDialect(protocol::Dialect::Kingfisher);
+    options.send_spacing = 0ms;
+    start(options);
+    out_.link_takes = full;  // full: it takes, but has not got rid of what it took
+    out_.link_is_full = full;
+    session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, now().steady, out_);
+    for (int i = 0; i < 10; ++i) {
+      session_->step(now(), out_);
+      EXPECT_GT(session_->nextStep(), now().steady) << (full ? "full" : "takes nothing");
+      elapsed_ += 5ms;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace frontseat_driver::session
