@@ -10,8 +10,11 @@ export BUILD_DIR
 JOBS ?= 2
 export JOBS
 
+# For each fuzzer.
+FUZZ_SECONDS ?= 60
+
 .DEFAULT_GOAL := help
-.PHONY: help demo test build lint clean
+.PHONY: help demo test build fuzz sanitize lint clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
@@ -29,6 +32,15 @@ test: ## builds with warnings as errors and runs all tests; closes with "N passe
 build: ## the package, ready to be sourced from build/devel/setup.bash
 	@scripts/install_dependencies build test
 	@scripts/build
+
+fuzz: ## FUZZ_SECONDS=60 of libFuzzer on each target, or FUZZER=decode alone; KEEP=1 adds what is new to the corpora
+	@scripts/install_dependencies build test fuzz
+	@BUILD_DIR="$(BUILD_DIR)/fuzz" TARGETS=fuzzers scripts/build -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_FUZZERS=ON
+	@BUILD_DIR="$(BUILD_DIR)/fuzz" scripts/fuzz "$(FUZZ_SECONDS)" $(FUZZER)
+
+sanitize: ## the test programs under address, undefined behavior and thread sanitizers
+	@scripts/install_dependencies build test
+	@scripts/sanitize
 
 lint: ## clang-format, catkin_lint and clang-tidy over everything
 	@scripts/install_dependencies build test lint
