@@ -14,10 +14,10 @@ export JOBS
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build fuzz sanitize lint clean
+.PHONY: help demo test build fuzz sanitize netns-test lint clean
 
 help: ## what there is to make
-	@sed -n 's/^\([a-z]*\):.*## /  make \1	/p' Makefile | expand -t 16
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
 
 demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher, EXAMPLE=square|square_cpp|survey
 	@scripts/install_dependencies build $(if $(DISPLAY),rviz)
@@ -37,6 +37,11 @@ fuzz: ## FUZZ_SECONDS=60 of libFuzzer on each target, or FUZZER=decode alone; KE
 	@scripts/install_dependencies build test fuzz
 	@BUILD_DIR="$(BUILD_DIR)/fuzz" TARGETS=fuzzers scripts/build -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_FUZZERS=ON
 	@BUILD_DIR="$(BUILD_DIR)/fuzz" scripts/fuzz "$(FUZZ_SECONDS)" $(FUZZER)
+
+netns-test: ## real network faults between network namespaces; needs root
+	@scripts/install_dependencies build test netns
+	@scripts/build
+	@scripts/netns_test
 
 sanitize: ## the test programs under address, undefined behavior and thread sanitizers
 	@scripts/install_dependencies build test
