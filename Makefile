@@ -14,7 +14,7 @@ export JOBS
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build fuzz sanitize netns-test lint clean
+.PHONY: help demo test build coverage fuzz sanitize netns-test lint clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -37,6 +37,10 @@ fuzz: ## FUZZ_SECONDS=60 of libFuzzer on each target, or FUZZER=decode alone; KE
 	@scripts/install_dependencies build test fuzz
 	@BUILD_DIR="$(BUILD_DIR)/fuzz" TARGETS=fuzzers scripts/build -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_FUZZERS=ON
 	@BUILD_DIR="$(BUILD_DIR)/fuzz" scripts/fuzz "$(FUZZ_SECONDS)" $(FUZZER)
+
+coverage: ## lines and branches that the test programs reach, by layer
+	@scripts/install_dependencies build test coverage
+	@scripts/coverage
 
 netns-test: ## real network faults between network namespaces; needs root
 	@scripts/install_dependencies build test netns
