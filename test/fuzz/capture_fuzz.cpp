@@ -11,7 +11,8 @@ void run(std::string_view bytes) {
   capture::TextReader reader{std::make_unique<capture::MemorySource>(bytes)};
   std::size_t in_lines = 0;
   while (const auto entry = reader.next()) {
-    promise(!entry->line.empty() && entry->line[0] == '$', "a line that begins with something else");
+    promise(!entry->line.empty() && entry->line[0] == '$',
+            "a line that begins with something else");
     promise(entry->line.size() <= nmea::Framer::kMaxLine, "a line is too long");
     in_lines += entry->line.size();
   }

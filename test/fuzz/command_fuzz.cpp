@@ -145,8 +145,9 @@ void checkSentence(std::string_view text) {
     promise(c >= 0x20 && c < 0x7F, "a byte that is not printable");
   }
   promise(text.find('+') == std::string_view::npos, "a plus");
-  promise(text.find(",-0,") == std::string_view::npos && text.find(",-0*") == std::string_view::npos,
-          "minus zero");
+  promise(
+      text.find(",-0,") == std::string_view::npos && text.find(",-0*") == std::string_view::npos,
+      "minus zero");
 }
 
 void checkCommand(Dice& dice) {

@@ -18,8 +18,8 @@ using nmea::ChecksumRule;
 
 void checkCounters(const nmea::Framer& framer) {
   const nmea::Framer::Counters& count = framer.counters();
-  promise(count.bytes == count.sentence_bytes + count.line_end_bytes + count.dropped_bytes +
-                             framer.pending(),
+  promise(count.bytes ==
+              count.sentence_bytes + count.line_end_bytes + count.dropped_bytes + framer.pending(),
           "a byte is not accounted for");
 }
 

@@ -36,8 +36,7 @@ NmeaOptions anyOptions(Dice& dice) {
 
 class Conversation : private session::Output {
  public:
-  explicit Conversation(Dice& dice)
-      : dice_(dice), options_(anyOptions(dice)), session_(options_) {}
+  explicit Conversation(Dice& dice) : dice_(dice), options_(anyOptions(dice)), session_(options_) {}
 
   void run() {
     step();
@@ -195,8 +194,8 @@ class Conversation : private session::Output {
     promise(connected_ && !options_.listen_only, "something was sent where nothing may be");
     promise(sentence.size() <= session::kMostBytesSent, "a sentence is too long");
     promise(sentence.substr(sentence.size() - 2) == "\r\n", "no CR LF at the end");
-    const auto read = nmea::parseSentence(sentence.substr(0, sentence.size() - 2),
-                                          nmea::ChecksumRule::Required);
+    const auto read =
+        nmea::parseSentence(sentence.substr(0, sentence.size() - 2), nmea::ChecksumRule::Required);
     promise(static_cast<bool>(read), "what was sent is no sentence");
     if (takes_) checkSent(*read);
     return takes_;
@@ -214,8 +213,9 @@ class Conversation : private session::Output {
             "a command without permission: " + std::string{session_.control().reason});
     promise(!left_ || !motion || zero, "a command after leaving");
     const auto dialect = session_.dialect();
-    if (motion) promise(dialect == (sent.talker() == "PY" ? Dialect::Kingfisher : Dialect::Sandshark),
-                        "a command for the other vehicle");
+    if (motion)
+      promise(dialect == (sent.talker() == "PY" ? Dialect::Kingfisher : Dialect::Sandshark),
+              "a command for the other vehicle");
   }
 
   bool congested() const override { return congested_; }
