@@ -72,17 +72,16 @@ std::size_t MemorySource::read(char* to, std::size_t room) {
 
 std::unique_ptr<FileSource> FileSource::open(const std::string& path) {
   std::unique_ptr<FileSource> source{new FileSource(openToRead(path, 0), path)};
-  struct stat status {};
-  if (fstat(source->descriptor_, &status) != 0) fail(errno, path);
-  if (S_ISDIR(status.st_mode)) fail(EISDIR, path);
-  if (S_ISREG(status.st_mode)) source->size_ = static_cast<std::uint64_t>(status.st_size);
+  source->learnSize();
   return source;
 }
 
 std::unique_ptr<FileSource> FileSource::standardInput() {
   const int descriptor = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0);
   if (descriptor < 0) fail(errno, "standard input");
-  return std::unique_ptr<FileSource>{new FileSource(descriptor, "standard input")};
+  std::unique_ptr<FileSource> source{new FileSource(descriptor, "standard input")};
+  source->learnSize();
+  return source;
 }
 
 std::unique_ptr<FileSource> FileSource::openSerial(const std::string& path, unsigned baud) {
@@ -95,6 +94,13 @@ std::unique_ptr<FileSource> FileSource::openSerial(const std::string& path, unsi
   if (flags < 0 || fcntl(descriptor, F_SETFL, flags & ~O_NONBLOCK) != 0) fail(errno, path);
   source->live_ = true;
   return source;
+}
+
+void FileSource::learnSize() {
+  struct stat status {};
+  if (fstat(descriptor_, &status) != 0) fail(errno, name_);
+  if (S_ISDIR(status.st_mode)) fail(EISDIR, name_);
+  if (S_ISREG(status.st_mode)) size_ = static_cast<std::uint64_t>(status.st_size);
 }
 
 FileSource::~FileSource() { ::close(descriptor_); }

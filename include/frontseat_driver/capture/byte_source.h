@@ -38,8 +38,8 @@ class MemorySource : public ByteSource {
   std::uint64_t size_;
 };
 
-/// A file, a pipe, or a device, read by its descriptor. A signal whose handler sets
-/// endReading() ends a wait, and the input.
+/// A file, a pipe, or a device, read by its descriptor. A signal whose handler
+/// calls endReading() ends a wait, and the input.
 class FileSource : public ByteSource {
  public:
   /// Throws std::system_error that names the file: not there, not readable, a folder.
@@ -67,6 +67,8 @@ class FileSource : public ByteSource {
 
  private:
   FileSource(int descriptor, std::string name) : descriptor_(descriptor), name_(std::move(name)) {}
+
+  void learnSize();
 
   int descriptor_;
   std::string name_;

@@ -24,6 +24,9 @@ class Reader {
   /// input. Throws std::runtime_error with one line that says what cannot be read, and why.
   virtual std::optional<Entry> next() = 0;
 
+  /// True when next() has its answer at hand and will not wait for input.
+  virtual bool ready() const { return true; }
+
   virtual ReadCounters counters() const = 0;
 };
 

@@ -36,6 +36,7 @@ class TextReader : public Reader {
   explicit TextReader(std::unique_ptr<ByteSource> source);
 
   std::optional<Entry> next() override;
+  bool ready() const override { return at_ != lines_.size() || ended_; }
   ReadCounters counters() const override;
 
  private:
