@@ -13,6 +13,10 @@ struct ReadCounters {
   std::uint64_t oversized = 0;    ///< sentences longer than nmea::Framer::kMaxLine
   std::uint64_t cut_off = 0;      ///< sentences that the next `$` interrupted
   std::uint64_t other_lines = 0;  ///< without a sentence: comments, other text, noise
+
+  std::uint64_t sent_again = 0;  ///< bytes of TCP that came more than once
+  std::uint64_t missing = 0;     ///< bytes of TCP that the capture lacks
+  bool breaks_off = false;       ///< the file ends inside a packet, or is damaged from there on
 };
 
 /// A record, entry by entry, in constant memory whatever is in it.

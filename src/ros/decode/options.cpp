@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
+#include <sstream>
 
 #include "field_text.h"
 
@@ -23,17 +24,31 @@ constexpr char kExits[] =
     "Exit codes: 0 done (whatever is in the record), 1 the input cannot be read or the output not\n"
     "written, 2 wrong options.";
 
-/// Letters as capitals; nothing for what no sentence can be called.
-std::string nameText(std::string& name) {
-  std::transform(name.begin(), name.end(), name.begin(),
+std::vector<std::string> namesOf(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
                  [](char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 32) : c; });
+  std::vector<std::string> names;
+  std::istringstream in{text};
+  for (std::string name; std::getline(in, name, ',');) names.push_back(name);
+  return names;
+}
+
+std::string nameFault(const std::string& name) {
   const auto allowed = [](char c) { return (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'); };
   const bool valid =
       name.size() >= 3 && name.size() <= 8 && std::all_of(name.begin(), name.end(), allowed);
   return valid ? "" : "'" + visible(name) + "' names no sentence; such as NVG or BFNVG does";
 }
 
-std::string momentText(std::string& text) {
+std::string namesFault(const std::string& text) {
+  const std::vector<std::string> names = namesOf(text);
+  for (const std::string& name : names) {
+    if (std::string fault = nameFault(name); !fault.empty()) return fault;
+  }
+  return names.empty() ? nameFault(text) : "";
+}
+
+std::string momentFault(const std::string& text) {
   if (toMoment(text)) return {};
   return "'" + visible(text) +
          "' is no time; such as 2014-11-19T14:30:00Z, 1416407400 or 90 (seconds after the start) "
@@ -43,7 +58,7 @@ std::string momentText(std::string& text) {
 /// What has to be translated.
 struct Words {
   std::string format = "lines";
-  std::string dialect, from, to;
+  std::string only, except, dialect, from, to;
 };
 
 void addInput(CLI::App& app, Options& options) {
@@ -78,23 +93,19 @@ void addOutput(CLI::App& app, Options& options, Words& words) {
       ->type_name("FILE");
 }
 
-void addSelection(CLI::App& app, Options& options, Words& words) {
-  app.add_option("--only", options.selection.only, "these sentences only: NVG,BFACK,...")
-      ->delimiter(',')
-      ->transform(CLI::Validator(nameText, ""))
+void addSelection(CLI::App& app, Words& words) {
+  app.add_option("--only", words.only, "these sentences only: NVG,BFACK,...")
+      ->check(namesFault)
       ->type_name("NAMES");
-  app.add_option("--except", options.selection.except, "all but these sentences")
-      ->delimiter(',')
-      ->transform(CLI::Validator(nameText, ""))
+  app.add_option("--except", words.except, "all but these sentences")
+      ->check(namesFault)
       ->type_name("NAMES");
   app.add_option(
          "--from", words.from,
          "from this time on: 2014-11-19T14:30:00Z, UNIX seconds, or seconds after the start")
-      ->check(CLI::Validator(momentText, ""))
+      ->check(momentFault)
       ->type_name("TIME");
-  app.add_option("--to", words.to, "before this time")
-      ->check(CLI::Validator(momentText, ""))
-      ->type_name("TIME");
+  app.add_option("--to", words.to, "before this time")->check(momentFault)->type_name("TIME");
   app.add_option("--dialect", words.dialect, "leave out the sentences of the other kind of vehicle")
       ->check(CLI::IsMember({"sandshark", "kingfisher"}))
       ->type_name("sandshark|kingfisher");
@@ -106,6 +117,8 @@ void translate(const Words& words, Options& options) {
   Selection::Config& selection = options.selection;
   if (words.dialect == "sandshark") selection.dialect = protocol::Dialect::Sandshark;
   if (words.dialect == "kingfisher") selection.dialect = protocol::Dialect::Kingfisher;
+  selection.only = namesOf(words.only);
+  selection.except = namesOf(words.except);
   if (!words.from.empty()) selection.from = toMoment(words.from);
   if (!words.to.empty()) selection.to = toMoment(words.to);
 }
@@ -144,7 +157,7 @@ Options parseOptions(const std::vector<std::string>& arguments) {
   app.footer(kExits);
   addInput(app, options);
   addOutput(app, options, words);
-  addSelection(app, options, words);
+  addSelection(app, words);
   std::vector<std::string> last_first{arguments.rbegin(), arguments.rend()};  // as CLI11 wants them
   try {
     app.parse(last_first);

@@ -6,6 +6,7 @@
 
 #include "bag_reader.h"
 #include "frontseat_driver/capture/byte_source.h"
+#include "frontseat_driver/capture/packet_reader.h"
 #include "frontseat_driver/capture/text_reader.h"
 
 namespace frontseat_driver::decode {
@@ -74,6 +75,9 @@ Record openBytes(std::unique_ptr<ByteSource> bytes, const Options& options) {
   if (beginsWith(source->first(), "#ROSBAG")) {
     if (from_stdin) throw std::runtime_error("a bag cannot be read from standard input; name it");
     return {openBag(options.input, options.vehicle), std::nullopt, false};
+  }
+  if (capture::PacketReader::recognizes(source->first())) {
+    return {std::make_unique<capture::PacketReader>(std::move(source), options.port), size, false};
   }
   return {std::make_unique<capture::TextReader>(std::move(source)), size, false};
 }

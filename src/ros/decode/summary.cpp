@@ -27,8 +27,8 @@ void Occurrences::add(const Occurrences& one) {
 }
 
 std::optional<double> SentenceFigures::rate_hz() const {
-  if (!first || *last <= *first) return std::nullopt;
-  return static_cast<double>(count - 1) / Seconds(*last - *first).count();
+  if (!earliest || *latest <= *earliest) return std::nullopt;
+  return static_cast<double>(count - 1) / Seconds(*latest - *earliest).count();
 }
 
 void Summary::add(const DecodedLine& line) {
@@ -60,7 +60,8 @@ void Summary::addTimes(const DecodedLine& line, SentenceFigures& figures) {
   ++figures.count;
   if (line.vehicle_time) figures.vehicle_time = line.vehicle_time;
   if (!line.at) return;
-  if (!figures.first) figures.first = line.at;
+  figures.earliest = std::min(figures.earliest.value_or(*line.at), *line.at);
+  figures.latest = std::max(figures.latest.value_or(*line.at), *line.at);
   if (figures.last && *line.at - *figures.last > figures.longest_gap) {
     figures.longest_gap = *line.at - *figures.last;
     figures.gap_begins = figures.last;

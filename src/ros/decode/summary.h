@@ -26,12 +26,12 @@ struct Occurrences {
 struct SentenceFigures {
   std::string_view title;
   std::uint64_t count = 0;
-  std::optional<vehicle::UtcTime> first, last;
+  std::optional<vehicle::UtcTime> earliest, latest, last;
   std::chrono::nanoseconds longest_gap{};
   std::optional<vehicle::UtcTime> gap_begins;
   std::optional<vehicle::UtcTime> vehicle_time;  ///< of the last one
 
-  /// Between the first and the last; nothing if no time passed.
+  /// Between the earliest and the latest; nothing if no time passed.
   std::optional<double> rate_hz() const;
 };
 

@@ -55,7 +55,7 @@ class Text {
     std::string row =
         print("  %-8s %-38.*s %10llu", address.c_str(), static_cast<int>(figures.title.size()),
               figures.title.data(), count(figures.count));
-    row += rate ? print(" %9.3f", *rate) : print(" %9s", "");
+    if (rate) row += print(" %9.3f", *rate);
     if (figures.gap_begins) {
       row += print(" %10.3f  ", Seconds(figures.longest_gap).count()) +
              moment(figures.gap_begins, recorded_);
@@ -106,9 +106,10 @@ std::string Summary::text(const capture::ReadCounters& read) const {
   Text out{recorded_times_};
   out.line(print("%llu sentences: %llu from the vehicle, %llu to it", count(lines_),
                  count(from_vehicle_), count(lines_ - from_vehicle_)));
-  if (all_.first && all_.last) {
-    out.line(duration(*all_.last - *all_.first) + ", from " + moment(all_.first, recorded_times_) +
-             " to " + moment(all_.last, recorded_times_) +
+  if (all_.earliest) {
+    out.line(duration(*all_.latest - *all_.earliest) + ", from " +
+             moment(all_.earliest, recorded_times_) + " to " +
+             moment(all_.latest, recorded_times_) +
              (recorded_times_ ? "" : " by the vehicle's clock: the record has no times"));
   }
   if (!kinds_.empty()) {
@@ -129,6 +130,9 @@ std::string Summary::text(const capture::ReadCounters& read) const {
   out.number("too long", read.oversized);
   out.number("cut off by the next one", read.cut_off);
   out.number("lines without a sentence", read.other_lines);
+  if (read.sent_again > 0) out.number("bytes of TCP sent again", read.sent_again);
+  if (read.missing > 0) out.number("bytes of TCP not captured", read.missing);
+  if (read.breaks_off) out.line("  the capture breaks off, or is damaged from here on");
   out.line("Surprises");
   if (all_.gap_begins) {
     out.line(
