@@ -10,7 +10,7 @@ import unittest
 import package_under_test as package
 
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
-PROGRAMS = ("nmea_node", "nmea_simulator", "kingfisher_square", "kingfisher_square.py",
+PROGRAMS = ("nmea_node", "nmea_simulator", "nmea_decode", "kingfisher_square", "kingfisher_square.py",
             "sandshark_survey.py")
 LAYERS = ("nmea", "vehicle", "link", "protocol", "capture", "session", "driver", "sim")
 
