@@ -14,8 +14,15 @@ bool equalsIgnoringCase(std::string_view text, std::string_view lower) {
   return std::equal(text.begin(), text.end(), lower.begin(), lower.end(), same);
 }
 
-}  // namespace
+const char* addDigits(const char* at, const char* end, Decimal& out) {
+  for (; at != end && isDigit(*at); ++at, ++out.digit_count) {
+    out.mantissa = out.mantissa * 10 + static_cast<std::uint64_t>(*at - '0');
+  }
+  return at;
+}
 
+/// Adds the exponent at `at`, which follows the `e`, to that of `out`. Returns where it stopped,
+/// nullptr if there is none.
 const char* readExponent(const char* at, const char* end, Decimal& out) {
   const bool negative = at != end && *at == '-';
   if (at != end && (*at == '-' || *at == '+')) ++at;
@@ -26,7 +33,31 @@ const char* readExponent(const char* at, const char* end, Decimal& out) {
   return at;
 }
 
-double toDoubleExactly(const Decimal& decimal) {
+}  // namespace
+
+const char* readDigits(const char* at, const char* end, Decimal& out) {
+  const char* stop = addDigits(at, end, out);
+  if (stop != end && *stop == '.') {
+    const char* const fraction = stop + 1;
+    stop = addDigits(fraction, end, out);
+    out.exponent = -static_cast<int>(stop - fraction);
+  }
+  out.digits = {at, static_cast<std::size_t>(stop - at)};
+  return out.digit_count == 0 ? nullptr : stop;
+}
+
+const char* readDecimal(const char* at, const char* end, Decimal& out) {
+  out.negative = at != end && *at == '-';
+  if (at != end && (*at == '-' || *at == '+')) ++at;
+  const char* const stop = readDigits(at, end, out);
+  const bool has_exponent = stop != nullptr && stop != end && (*stop | 0x20) == 'e';
+  return has_exponent ? readExponent(stop + 1, end, out) : stop;
+}
+
+double toDouble(const Decimal& decimal) {
+  const bool quick = decimal.digit_count <= kMaxDigits && decimal.mantissa >> 53 == 0 &&
+                     decimal.exponent <= 0 && decimal.exponent >= -22;
+  if (quick) return toDouble(decimal.mantissa, -decimal.exponent, decimal.negative ? 1 : 0);
   const double magnitude = nearestDouble(decimal.digits, decimal.exponent);
   return decimal.negative ? -magnitude : magnitude;
 }

@@ -4,20 +4,27 @@
 #include <cmath>
 
 #include "decimal.h"
+#include "field.h"
 
 namespace frontseat_driver::nmea {
 namespace {
 
-std::string_view withoutBlanks(std::string_view text) {
-  while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
-  return text;
+constexpr std::ptrdiff_t kBlock = 64;
+
+bool allDigits(std::string_view text) { return std::all_of(text.begin(), text.end(), isDigit); }
+
+std::uint64_t toNumber(std::string_view digits) {
+  std::uint64_t sum = 0;
+  for (const char c : digits) sum = sum * 10 + static_cast<std::uint64_t>(c - '0');
+  return sum;
 }
 
 /// Six digits as three numbers of two.
 struct Pairs {
   int first, second, third;
 };
+
+constexpr std::uint64_t kPowersOfTen[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000};
 
 Pairs pairs(std::uint64_t six_digits) {
   const auto number = static_cast<int>(six_digits);
@@ -31,13 +38,15 @@ int daysIn(int month, int year) {
   return kDays[month - 1] + (leap_day ? 1 : 0);
 }
 
-/// A whole number with a sign at most and no decimals but zeros. Returns where it ends, nullptr if
-/// there is none; sets `value`, or nothing in it if it does not fit.
-const char* readInteger(const char* at, const char* end, std::optional<std::int64_t>& value) {
+/// A whole number with a sign at most and no decimals but zeros. False if that is not what `text`
+/// is; sets `value`, or nothing in it if it does not fit.
+bool readInteger(std::string_view text, std::optional<std::int64_t>& value) {
   constexpr std::uint64_t kLargest = std::numeric_limits<std::int64_t>::max();
+  const char* at = text.data();
+  const char* const end = at + text.size();
   const bool negative = at != end && *at == '-';
   if (at != end && (*at == '-' || *at == '+')) ++at;
-  if (at == end || !isDigit(*at)) return nullptr;
+  if (at == end || !isDigit(*at)) return false;
   const std::uint64_t limit = kLargest + (negative ? 1 : 0);
   std::uint64_t magnitude = 0;
   bool fits = true;
@@ -48,13 +57,7 @@ const char* readInteger(const char* at, const char* end, std::optional<std::int6
   }
   if (at != end && *at == '.') at = std::find_if(at + 1, end, [](char c) { return c != '0'; });
   if (fits) value = static_cast<std::int64_t>(negative ? 0 - magnitude : magnitude);
-  return at;
-}
-
-/// Decimals of a second as microseconds, cut off.
-std::uint64_t toMicroseconds(const char* at, const Digits& decimals) {
-  if (decimals.count <= 6) return decimals.value * kPowersOfTen[6 - decimals.count];
-  return DigitText{{at, 6}}.digits(at).value;
+  return at == end;
 }
 
 /// How many of the digits before the point are of the minutes; negative if that cannot be told.
@@ -66,152 +69,218 @@ int minuteDigits(int whole_digits, DegreeSplit split, int degree_digits) {
 }  // namespace
 
 FieldReader::FieldReader(const Sentence& sentence)
-    : fields_(sentence.fields),
-      at_(fields_.data()),
-      end_(at_ + fields_.size()),
-      ended_(!sentence.has_fields) {}
-
-/// Takes the field that was read up to `at` if nothing but blanks is left of it.
-inline bool FieldReader::finish(const char* at) {
-  while (at != end_ && *at == ' ') ++at;
-  if (at != end_ && *at != ',') return false;
-  ended_ = at == end_;
-  at_ = ended_ ? at : at + 1;
-  return true;
+    : begin_(sentence.fields.data()),
+      end_(begin_ + sentence.fields.size()),
+      at_(sentence.has_fields ? begin_ : end_ + 1),
+      block_(begin_) {
+  findMarks();
 }
 
-/// Goes to the first character of the next field that is no blank; false if there is none.
-inline bool FieldReader::begin() {
-  ++field_;
-  if (ended_) {
-    if (!optional_) note(Fault::MissingField);
-    return false;
+/// Notes where the commas and points of the block are.
+void FieldReader::findMarks() {
+  commas_ = 0;
+  marks_ = 0;
+  const auto note = [this](Bytes text, std::ptrdiff_t place, std::ptrdiff_t before) {
+    commas_ |= bitsOf(text == ',') >> before << place;
+    marks_ |= bitsOf((text | 2) == '.') >> before << place;  // `,` differs from `.` in one bit
+  };
+  const std::ptrdiff_t size = end_ - block_;
+  std::ptrdiff_t place = 0;
+  for (; place < kBlock && size - place >= kWidth; place += kWidth) {
+    note(load(block_ + place), place, 0);
   }
-  while (at_ != end_ && *at_ == ' ') ++at_;
-  const bool blank = at_ == end_ || *at_ == ',';
-  if (blank) finish(at_);
-  return !blank;
+  if (place == kBlock) return;
+  if (end_ - begin_ < kWidth) {
+    note(loadFirst(block_ + place, end_, ' '), place, 0);
+  } else {
+    note(load(end_ - kWidth), place, kWidth - (size - place));
+  }
+  commas_ |= std::uint64_t{1} << size;
+  marks_ |= std::uint64_t{1} << size;
 }
 
-/// Takes the field whatever it holds.
-std::string_view FieldReader::take() {
-  const char* const from = at_;
-  const char* const comma = std::find(at_, end_, ',');
-  finish(comma);
-  return withoutBlanks({from, static_cast<std::size_t>(comma - from)});
+/// Goes to the next field, which is empty if there is none.
+inline Field FieldReader::take() {
+  ++field_;
+  const char* const begin = at_;
+  if (begin > end_) return missing();
+  if (commas_ == 0) return takeOverBlocks();
+  const char* const end = block_ + __builtin_ctzll(commas_);
+  const char* const point = block_ + __builtin_ctzll(marks_);
+  const std::uint64_t below = commas_ - 1;
+  marks_ &= ~(commas_ ^ below);
+  commas_ &= below;
+  at_ = end + 1;
+  return {begin, point, end};
+}
+
+Field FieldReader::missing() {
+  if (!optional_) note(Fault::MissingField);
+  return {end_, end_, end_};
+}
+
+/// For a field that ends in a later block.
+Field FieldReader::takeOverBlocks() {
+  const char* const point = marks_ != 0 ? block_ + __builtin_ctzll(marks_) : nullptr;
+  while (commas_ == 0) {
+    block_ += kBlock;
+    findMarks();
+  }
+  --field_;
+  Field field = take();
+  if (point != nullptr) field.point = point;
+  return field;
 }
 
 void FieldReader::note(Fault fault) {
   if (faults_.count++ == 0) faults_.first = {fault, field_};
 }
 
-std::nullopt_t FieldReader::refuse(Fault fault) {
+bool FieldReader::refuse(Fault fault) {
   note(fault);
-  return std::nullopt;
+  return false;
 }
 
-/// Takes a field that is not of the type asked for.
-std::nullopt_t FieldReader::refuseField() {
-  if (!isNotFinite(take())) note(Fault::BadValue);
-  return std::nullopt;
+/// For a field that is not of the type asked for.
+bool FieldReader::refuseField(std::string_view text) {
+  if (!text.empty() && !isNotFinite(text)) note(Fault::BadValue);
+  return false;
 }
 
-std::optional<double> FieldReader::number() {
-  if (!begin()) return std::nullopt;
-  Decimal decimal;
-  const char* const stop = readDecimal(DigitText{fields_}, at_, decimal);
-  if (stop == nullptr || !finish(stop)) return refuseField();
-  const double value = toDouble(decimal);
-  if (!std::isfinite(value)) return refuse(Fault::OutOfRange);
-  return value;
+/// Whether `digits` of the field, and what it takes to read them, are in reach of Digits::last().
+inline bool FieldReader::isShort(const Field& field, std::ptrdiff_t digits) const {
+  return digits >= 1 && digits <= 8 && field.end - begin_ >= 9;
 }
 
-std::optional<double> FieldReader::numberIn(double low, double high) {
-  const std::optional<double> value = number();
-  const bool outside = value && !(*value >= low && *value <= high);
-  if (outside) return refuse(Fault::OutOfRange);
-  return value;
-}
-
-std::optional<std::int64_t> FieldReader::integer(std::int64_t low, std::int64_t high) {
-  if (!begin()) return std::nullopt;
-  std::optional<std::int64_t> value;
-  const char* const stop = readInteger(at_, end_, value);
-  if (stop == nullptr || !finish(stop)) return refuseField();
-  if (!value || *value < low || *value > high) return refuse(Fault::OutOfRange);
-  return value;
-}
-
-std::optional<bool> FieldReader::either(std::string_view yes, std::string_view no) {
-  if (!begin()) return std::nullopt;
-  const std::string_view field = take();
-  if (field != yes && field != no) return refuse(Fault::BadValue);
-  return field == yes;
-}
-
-std::optional<TimeOfDay> FieldReader::timeOfDay() {
-  if (!begin()) return std::nullopt;
-  const DigitText text{fields_};
-  const Digits digits = text.digits(at_);
-  if (digits.count != 6) return refuseField();
-  const char* stop = at_ + 6;
-  std::uint64_t microseconds = 0;
-  if (stop != end_ && *stop == '.') {
-    const Digits decimals = text.digits(++stop);
-    microseconds = toMicroseconds(stop, decimals);
-    stop += decimals.count;
+bool FieldReader::read(double& out) {
+  const Field field = take();
+  if (field.blank()) return false;
+  const std::ptrdiff_t sign = *field.begin == '-' ? 1 : 0;
+  const std::ptrdiff_t digit_count = field.end - field.begin - sign - field.hasPoint();
+  if (isShort(field, digit_count)) {
+    const Digits digits = Digits::last(digit_count, field);
+    out = toDouble(digits.number(), field.decimals(), sign);
+    if (digits.good()) return true;
   }
-  if (!finish(stop)) return refuseField();
-  const auto [hours, minutes, seconds] = pairs(digits.value);
-  if (hours > 23 || minutes > 59 || seconds > 60) return refuse(Fault::OutOfRange);
-  const std::int64_t whole_seconds = (hours * 60 + minutes) * 60 + seconds;
-  return TimeOfDay{whole_seconds * 1'000'000 + static_cast<std::int64_t>(microseconds)};
+  return readTheLongWay(field.text(), out);
+}
+
+bool FieldReader::readTheLongWay(std::string_view text, double& out) {
+  Decimal decimal;
+  const char* const end = text.data() + text.size();
+  if (text.empty() || readDecimal(text.data(), end, decimal) != end) return refuseField(text);
+  out = toDouble(decimal);
+  return std::isfinite(out) || refuse(Fault::OutOfRange);
+}
+
+bool FieldReader::read(std::int64_t& out, std::int64_t low, std::int64_t high) {
+  const Field field = take();
+  if (field.end - field.begin == 1 && isDigit(*field.begin)) {
+    out = *field.begin - '0';
+    return (out >= low && out <= high) || refuse(Fault::OutOfRange);
+  }
+  const std::string_view text = field.text();
+  std::optional<std::int64_t> value;
+  if (text.empty() || !readInteger(text, value)) return refuseField(text);
+  if (!value || *value < low || *value > high) return refuse(Fault::OutOfRange);
+  out = *value;
+  return true;
+}
+
+bool FieldReader::read(TimeOfDay& out) {
+  const Field field = take();
+  const std::ptrdiff_t decimals = field.decimals();
+  const bool usual = field.point - field.begin == 6 && decimals >= 2 && decimals <= 6;
+  if (!usual || field.end - begin_ < 9) return readTheLongWay(field.text(), out);
+  const Digits clock = Digits::at(field.begin).first(4);
+  const Digits seconds = Digits::last(2 + decimals, field);
+  if (!clock.good() || !seconds.good()) return readTheLongWay(field.text(), out);
+  const std::uint64_t microseconds = seconds.number() * kPowersOfTen[6 - decimals];
+  return set(out, clock.pair(4), clock.pair(6), static_cast<std::int64_t>(microseconds));
+}
+
+bool FieldReader::readTheLongWay(std::string_view text, TimeOfDay& out) {
+  const std::size_t point = std::min(text.find('.'), text.size());
+  const std::string_view decimals = text.substr(std::min(point + 1, text.size()));
+  if (point != 6 || !allDigits(text.substr(0, 6)) || !allDigits(decimals)) return refuseField(text);
+  const std::string_view microseconds = decimals.substr(0, 6);
+  const Pairs clock = pairs(toNumber(text.substr(0, 6)));
+  const auto decimals_us = toNumber(microseconds) * kPowersOfTen[6 - microseconds.size()];
+  return set(out, clock.first, clock.second,
+             clock.third * 1'000'000 + static_cast<std::int64_t>(decimals_us));
+}
+
+/// The seconds may read 60 and a part.
+inline bool FieldReader::set(TimeOfDay& out, int hours, int minutes, std::int64_t microseconds) {
+  if (hours > 23 || minutes > 59 || microseconds >= 61'000'000) return refuse(Fault::OutOfRange);
+  out = TimeOfDay{(hours * 60 + minutes) * std::int64_t{60'000'000} + microseconds};
+  return true;
 }
 
 std::optional<Date> FieldReader::date() {
-  if (!begin()) return std::nullopt;
-  const Digits digits = DigitText{fields_}.digits(at_);
-  if (digits.count != 6 || !finish(at_ + 6)) return refuseField();
-  const auto [day, month, short_year] = pairs(digits.value);
+  const std::string_view field = text();
+  if (field.size() != 6 || !allDigits(field)) return refuseField(field), std::nullopt;
+  const auto [day, month, short_year] = pairs(toNumber(field));
   const int year = short_year + (short_year < 80 ? 2000 : 1900);
-  if (month < 1 || month > 12 || day < 1) return refuse(Fault::OutOfRange);
-  if (day > daysIn(month, year)) return refuse(Fault::OutOfRange);
+  const bool exists = month >= 1 && month <= 12 && day >= 1 && day <= daysIn(month, year);
+  if (!exists) return refuse(Fault::OutOfRange), std::nullopt;
   return Date{year, month, day};
 }
 
-std::optional<LatLon> FieldReader::latLon(DegreeSplit split) {
-  const std::optional<double> latitude = degrees(split, 2, 90.0);
-  const std::optional<bool> north = either("N", "S");
-  const std::optional<double> longitude = degrees(split, 3, 180.0);
-  const std::optional<bool> east = either("E", "W");
-  if (!latitude || !north || !longitude || !east) return std::nullopt;
-  return LatLon{*north ? *latitude : -*latitude, *east ? *longitude : -*longitude};
-}
-
 /// One field of degrees and minutes without a sign.
-std::optional<double> FieldReader::degrees(DegreeSplit split, int degree_digits, double limit) {
-  if (!begin()) return std::nullopt;
-  const DigitText text{fields_};
-  const Digits whole = text.digits(at_);
-  const int minute_digits = minuteDigits(whole.count, split, degree_digits);
-  Decimal minutes;
-  const char* const cut = at_ + whole.count - std::max(minute_digits, 0);
-  const char* const stop = readDigits(text, cut, minutes);
-  if (stop == nullptr || !finish(stop)) return refuseField();
-  const double minute_value = toDouble(minutes);
-  const bool zero = whole.value == 0 && minute_value == 0.0;  // however many zeros are left out
-  if (minute_digits < 0) return zero ? std::optional<double>{0.0} : refuse(Fault::BadValue);
-  if (whole.count > kMaxDigits || minute_value > 60.0) return refuse(Fault::OutOfRange);
-  const std::uint64_t whole_degrees = whole.value / kPowersOfTen[minute_digits];
-  const double value = static_cast<double>(whole_degrees) + minute_value / 60.0;
-  if (value > limit) return refuse(Fault::OutOfRange);
-  return value;
+bool FieldReader::readDegrees(double& out, DegreeSplit split, int degree_digits, double limit) {
+  const Field field = take();
+  const std::ptrdiff_t count = field.point - field.begin - 2;  // of degrees, if two are of minutes
+  const bool usual = count == degree_digits || (split == DegreeSplit::FromPoint && count == 2);
+  const std::ptrdiff_t decimals = field.decimals();
+  if (usual && end_ - field.begin >= 8 && isShort(field, 2 + decimals)) {
+    const Digits degrees = Digits::at(field.begin).first(count);
+    const Digits minutes = Digits::last(2 + decimals, field);
+    if (degrees.good() && minutes.good()) {
+      return set(out, degrees.number(), toDouble(minutes.number(), decimals, 0), limit);
+    }
+  }
+  return readDegreesTheLongWay(field.text(), out, split, degree_digits, limit);
 }
 
-std::string_view FieldReader::text() { return begin() ? take() : std::string_view{}; }
+bool FieldReader::readDegreesTheLongWay(std::string_view text, double& out, DegreeSplit split,
+                                        int degree_digits, double limit) {
+  const std::size_t point = std::min(text.find('.'), text.size());
+  const int whole_digits = static_cast<int>(point);
+  const int minute_digits = minuteDigits(whole_digits, split, degree_digits);
+  const std::string_view degrees =
+      text.substr(0, point - static_cast<std::size_t>(std::max(minute_digits, 0)));
+  Decimal minutes;
+  const char* const end = text.data() + text.size();
+  const bool read =
+      allDigits(degrees) && readDigits(degrees.data() + degrees.size(), end, minutes) == end;
+  if (!read || text.empty()) return refuseField(text);
+  const double minute_value = toDouble(minutes);
+  if (minute_digits < 0) {  // not a position, but the zero of one that is not known yet
+    out = 0.0;
+    return minute_value == 0.0 || refuse(Fault::BadValue);
+  }
+  if (whole_digits > kMaxDigits) return refuse(Fault::OutOfRange);
+  return set(out, toNumber(degrees), minute_value, limit);
+}
+
+inline bool FieldReader::set(double& out, std::uint64_t degrees, double minutes, double limit) {
+  out = static_cast<double>(degrees) + minutes / 60.0;
+  return (minutes <= 60.0 && out <= limit) || refuse(Fault::OutOfRange);
+}
+
+std::string_view FieldReader::text() { return take().text(); }
+
+char FieldReader::letter() {
+  const Field field = take();
+  if (field.end - field.begin == 1) return *field.begin;
+  const std::string_view text = field.text();
+  if (text.empty()) return ' ';
+  return text.size() == 1 ? text.front() : '\0';
+}
 
 int FieldReader::remaining() const {
-  return ended_ ? 0 : 1 + static_cast<int>(std::count(at_, end_, ','));
+  return at_ > end_ ? 0 : 1 + static_cast<int>(std::count(at_, end_, ','));
 }
 
 }  // namespace frontseat_driver::nmea

@@ -1,58 +1,66 @@
 #include "frontseat_driver/nmea/framer.h"
 
-#include <algorithm>
 #include <cstring>
+
+#include "bytes.h"
 
 namespace frontseat_driver::nmea {
 namespace {
 
-const char* find(char wanted, const char* from, const char* end) {
-  const void* found = std::memchr(from, wanted, static_cast<std::size_t>(end - from));
-  return found ? static_cast<const char*>(found) : end;
-}
-
-/// Moves `next` to the first `wanted` at or after `from`, unless it is there already.
-void seek(const char*& next, char wanted, const char* from, const char* end) {
-  if (next < from) next = find(wanted, from, end);
-}
-
-std::string_view view(const char* from, const char* to) {
-  return {from, static_cast<std::size_t>(to - from)};
+/// The first line end or `$` from `at` on.
+const char* nextStop(const char* at, const char* end) {
+  const auto stops = [](Bytes text) {
+    return bitsOf((text == '\r') | (text == '\n') | (text == '$'));
+  };
+  for (; end - at >= kWidth; at += kWidth) {
+    if (const std::uint64_t found = stops(load(at)); found != 0) return at + __builtin_ctzll(found);
+  }
+  const std::uint64_t found = stops(loadFirst(at, end, ' '));
+  return found != 0 ? at + __builtin_ctzll(found) : end;
 }
 
 }  // namespace
 
-Framer::Scan::Scan(std::string_view chunk)
-    : at(chunk.data()),
-      end(chunk.data() + chunk.size()),
-      next_feed(at),
-      next_return(at),
-      next_dollar(at) {}
-
-std::string_view Framer::Scan::takeLineEnds() {
+inline std::size_t Framer::Scan::takeLineEnds() {
   const char* const from = at;
   while (atLineEnd()) ++at;
-  return view(from, at);
+  return static_cast<std::size_t>(at - from);
 }
 
 /// What lies before the next line end or `$`; a `$` that it begins with belongs to it.
-std::string_view Framer::Scan::takeRun() {
-  const char* const from = at++;
-  seek(next_feed, '\n', at, end);
-  seek(next_return, '\r', at, end);
-  seek(next_dollar, '$', at, end);
-  at = std::min({next_feed, next_return, next_dollar});
-  return view(from, at);
+inline std::string_view Framer::Scan::takeRun() {
+  const char* const from = at;
+  at = nextStop(at + 1, end);
+  return {from, static_cast<std::size_t>(at - from)};
+}
+
+inline void Framer::countLineEnd(std::size_t bytes) {
+  counters_.bytes += bytes;
+  counters_.line_end_bytes += bytes;
+}
+
+inline std::string_view Framer::handOn(std::string_view line, std::size_t line_end_bytes) {
+  countLineEnd(line_end_bytes);
+  state_ = State::Between;
+  held_ = 0;
+  ++counters_.sentences;
+  counters_.sentence_bytes += line.size();
+  return line;
+}
+
+inline void Framer::begin() {
+  reset();
+  state_ = State::Sentence;
 }
 
 std::string_view Framer::step(Scan& scan) {
-  if (scan.atLineEnd()) return endLine(scan.takeLineEnds().size());
+  if (scan.atLineEnd()) return endLine(scan.takeLineEnds());
   const bool begins = *scan.at == '$';
   if (begins) begin();
   const std::string_view run = scan.takeRun();
   counters_.bytes += run.size();
   const bool whole = begins && scan.atLineEnd() && run.size() <= kMaxLine;
-  if (whole) return handOn(run);
+  if (whole) return handOn(run, scan.takeLineEnds());
   if (state_ == State::Sentence) {
     hold(run);
   } else {
@@ -62,24 +70,10 @@ std::string_view Framer::step(Scan& scan) {
 }
 
 std::string_view Framer::endLine(std::size_t line_end_bytes) {
-  counters_.bytes += line_end_bytes;
-  counters_.line_end_bytes += line_end_bytes;
-  if (state_ == State::Sentence) return handOn({buffer_.data(), held_});
+  if (state_ == State::Sentence) return handOn({buffer_.data(), held_}, line_end_bytes);
+  countLineEnd(line_end_bytes);
   state_ = State::Between;
   return {};
-}
-
-std::string_view Framer::handOn(std::string_view line) {
-  state_ = State::Between;
-  held_ = 0;
-  ++counters_.sentences;
-  counters_.sentence_bytes += line.size();
-  return line;
-}
-
-void Framer::begin() {
-  reset();
-  state_ = State::Sentence;
 }
 
 void Framer::reset() {

@@ -19,6 +19,18 @@ constexpr std::uint64_t pack(std::string_view text, std::uint64_t from = 0) {
   return from;
 }
 
+/// Turns into its result where that is to be, so that a message is never copied.
+template <class Make>
+struct InPlace {
+  Make make;
+  operator decltype(std::declval<Make>()())() const { return make(); }
+};
+
+template <class T, class Make>
+void put(Message& out, Make make) {
+  out.emplace<T>(InPlace<Make>{make});
+}
+
 using Decode = void (*)(FieldReader&, Message&);
 
 struct Decoder {
@@ -30,7 +42,7 @@ struct Decoder {
 template <class T>
 constexpr Decoder decoderFor(std::string_view talker, std::string_view formatter = T::kFormatter) {
   return {pack(formatter, pack(talker)),
-          [](FieldReader& in, Message& out) { out.template emplace<T>(T::decode(in)); },
+          [](FieldReader& in, Message& out) { put<T>(out, [&in] { return T::decode(in); }); },
           {talker, formatter, T::kTitle}};
 }
 
@@ -38,7 +50,7 @@ template <DegreeSplit kSplit>
 constexpr Decoder navigationFrom(std::string_view talker) {
   return {pack(NavigationUpdate::kFormatter, pack(talker)),
           [](FieldReader& in, Message& out) {
-            out.emplace<NavigationUpdate>(NavigationUpdate::decode(in, kSplit));
+            put<NavigationUpdate>(out, [&in] { return NavigationUpdate::decode(in, kSplit); });
           },
           {talker, NavigationUpdate::kFormatter, NavigationUpdate::kTitle}};
 }
@@ -121,6 +133,15 @@ Decode decoderOf(std::string_view address) {
   return exact != nullptr ? exact : kIndex.find(packed & kFormatterBits);
 }
 
+// One object and one return, so that it is made where the caller wants it.
+nmea::Decoded<Reading> read(const nmea::Sentence& sentence, Decode decode) {
+  FieldReader in{sentence};
+  nmea::Decoded<Reading> reading{std::in_place};
+  decode(in, reading->message);
+  reading->faults = in.faults();
+  return reading;
+}
+
 }  // namespace
 
 const char* toString(Dialect dialect) {
@@ -136,11 +157,7 @@ std::optional<Dialect> dialectOf(std::string_view talker) {
 nmea::Decoded<Reading> decode(const nmea::Sentence& sentence) {
   const Decode decode = decoderOf(sentence.address);
   if (decode == nullptr) return nmea::Fault::UnknownType;
-  FieldReader in{sentence};
-  nmea::Decoded<Reading> reading{std::in_place};
-  decode(in, reading->message);
-  reading->faults = in.faults();
-  return reading;
+  return read(sentence, decode);
 }
 
 std::vector<KnownSentence> knownSentences() {

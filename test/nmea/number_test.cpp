@@ -9,6 +9,7 @@
 #include <locale>
 #include <random>
 #include <string>
+#include <vector>
 
 #include "frontseat_driver/nmea/field_reader.h"
 
@@ -198,6 +199,59 @@ TEST(Number, EqualsStrtodForAnyDoubleAsPrinted) {
     std::snprintf(text, sizeof text, "%.*e", i % 50 == 0 ? 800 : 16, value);
     expectAsStrtod(text);
     if (HasFatalFailure()) return;
+  }
+}
+
+/// Fields of any kind one after the other, so that each stands at every place once: numbers are
+/// found by where the commas and points of 64 characters at a time are.
+TEST(Number, EqualsStrtodWhereverItStands) {
+  std::mt19937_64 random{2018};
+  for (int i = 0; i < 100'000; ++i) {
+    std::vector<std::string> fields(1 + random() % 24);
+    std::string line;
+    for (std::string& field : fields) {
+      const bool blank = random() % 8 == 0;
+      if (!blank) field = (random() % 2 == 0 ? "-" : "") + randomDigits(random, 1 + random() % 12);
+      line += (&field == &fields.front() ? "" : ",") + field;
+    }
+    const std::vector<char> exactly(line.begin(), line.end());  // nothing to read beyond its end
+    FieldReader in = reader({exactly.data(), exactly.size()});
+    for (const std::string& field : fields) {
+      const auto value = in.number();
+      ASSERT_EQ(value.has_value(), !field.empty()) << line;
+      if (!value) continue;
+      ASSERT_EQ(bits(*value), bits(std::strtod(field.c_str(), nullptr))) << line;
+    }
+    ASSERT_EQ(in.remaining(), 0) << line;
+    ASSERT_EQ(in.faults().count, 0) << line;
+  }
+}
+
+/// A blank in front makes a field be read the long way.
+TEST(Fields, AreReadTheSameQuicklyAndTheLongWay) {
+  std::mt19937_64 random{2019};
+  const auto digits = [&](std::size_t count) {
+    std::string out;
+    while (out.size() < count) out += static_cast<char>('0' + random() % 10);
+    return out;
+  };
+  for (int i = 0; i < 200'000; ++i) {
+    const auto decimals = [&] { return random() % 4 == 0 ? "" : "." + digits(random() % 9); };
+    const std::string latitude = digits(3 + random() % 3) + decimals();
+    const std::string longitude = digits(3 + random() % 4) + decimals();
+    const std::string time = digits(6 + (random() % 16 == 0 ? 1 : 0)) + decimals();
+    const std::string whole = digits(1 + random() % 3);
+    const std::string quick = time + ',' + latitude + ",N," + longitude + ",W," + whole;
+    const std::string slow = ' ' + time + ", " + latitude + ", N, " + longitude + ", W, " + whole;
+    const auto split = random() % 2 == 0 ? DegreeSplit::FromLeft : DegreeSplit::FromPoint;
+    FieldReader a = reader(quick);
+    FieldReader b = reader(slow);
+    ASSERT_EQ(a.timeOfDay(), b.timeOfDay()) << quick;
+    ASSERT_EQ(a.latLon(split), b.latLon(split)) << quick;
+    ASSERT_EQ(a.integer(), b.integer()) << quick;
+    ASSERT_EQ(a.faults().count, b.faults().count) << quick;
+    ASSERT_EQ(a.faults().first.field, b.faults().first.field) << quick;
+    ASSERT_EQ(a.faults().first.fault, b.faults().first.fault) << quick;
   }
 }
 

@@ -35,7 +35,7 @@ class Framer {
   /// The view holds until the sink returns. The sink may call reset(), not feed().
   template <class Sink>
   void feed(std::string_view chunk, Sink&& sink) {
-    for (Scan scan{chunk}; scan.at != scan.end;) {
+    for (Scan scan{chunk.data(), chunk.data() + chunk.size()}; scan.at != scan.end;) {
       if (const std::string_view line = step(scan); !line.empty()) sink(line);
     }
   }
@@ -51,24 +51,20 @@ class Framer {
  private:
   enum class State { Between, Noise, Sentence, Oversized };
 
-  /// A chunk and how far it was read. Each kind of stop is sought ahead once and remembered, so
-  /// that no input makes a byte be looked at more than once per kind.
+  /// A chunk and how far it was read.
   struct Scan {
-    explicit Scan(std::string_view chunk);
     bool atLineEnd() const { return at != end && (*at == '\r' || *at == '\n'); }
-    std::string_view takeLineEnds();
+    std::size_t takeLineEnds();
     std::string_view takeRun();
 
     const char* at;
     const char* end;
-    const char* next_feed;
-    const char* next_return;
-    const char* next_dollar;
   };
 
   std::string_view step(Scan& scan);
   std::string_view endLine(std::size_t line_end_bytes);
-  std::string_view handOn(std::string_view line);
+  std::string_view handOn(std::string_view line, std::size_t line_end_bytes);
+  void countLineEnd(std::size_t bytes);
   void begin();
   void hold(std::string_view run);
   void drop(std::string_view run);

@@ -7,7 +7,7 @@ namespace frontseat_driver::protocol::gps {
 MinimumData MinimumData::decode(nmea::FieldReader& in) {
   MinimumData message;
   message.measured_at = in.timeOfDay();
-  message.valid = in.either("A", "V").value_or(false);
+  message.valid = in.either('A', 'V').value_or(false);
   message.position = in.latLon(nmea::DegreeSplit::FromPoint);
   message.speed_kn = in.number();
   message.course_deg = heading(in);
