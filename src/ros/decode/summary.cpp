@@ -34,11 +34,7 @@ std::optional<double> SentenceFigures::rate_hz() const {
 void Summary::add(const DecodedLine& line) {
   ++lines_;
   if (line.direction == capture::Direction::FromVehicle) ++from_vehicle_;
-  if (line.entry.time) recorded_times_ = true;
-  const bool goes_back = line.entry.time && all_.last && *line.entry.time < *all_.last;
-  if (goes_back) {
-    record_goes_back_.add(here(line, Seconds(*all_.last - *line.entry.time).count()));
-  }
+  addRecordedTime(line);
   addTimes(line, all_);
   addFaults(line);
   if (!line.reading && !line.unknown()) return;
@@ -67,6 +63,17 @@ void Summary::addTimes(const DecodedLine& line, SentenceFigures& figures) {
     figures.gap_begins = figures.last;
   }
   figures.last = line.at;
+}
+
+void Summary::addRecordedTime(const DecodedLine& line) {
+  if (!line.entry.time) return;
+  recorded_times_ = true;
+  auto& last = line.direction == capture::Direction::ToVehicle ? recorded_to_vehicle_
+                                                               : recorded_from_vehicle_;
+  if (last && *line.entry.time < *last) {
+    record_goes_back_.add(here(line, Seconds(*last - *line.entry.time).count()));
+  }
+  last = line.entry.time;
 }
 
 void Summary::addFaults(const DecodedLine& line) {

@@ -53,6 +53,7 @@ class Summary {
 
  private:
   void addTimes(const DecodedLine& line, SentenceFigures& figures);
+  void addRecordedTime(const DecodedLine& line);
   void addFaults(const DecodedLine& line);
   void addPosition(const DecodedLine& line);
   SentenceFigures* figuresOf(const DecodedLine& line);
@@ -65,6 +66,8 @@ class Summary {
   std::uint64_t unknown_ = 0;
   bool recorded_times_ = false;
   SentenceFigures all_;  ///< whatever the address
+  /// Of the last sentence each way: in a bag they stand in the order in which they came there.
+  std::optional<vehicle::UtcTime> recorded_from_vehicle_, recorded_to_vehicle_;
   Occurrences bad_checksums_, missing_checksums_, malformed_, bad_fields_;
   Occurrences record_goes_back_, vehicle_goes_back_, jumps_;
   ros_layer::JumpFilter jump_filter_{kMaxSpeed_m_s};
