@@ -47,6 +47,33 @@ struct CourseCommand {
 
 using Command = std::variant<BehaviorCommand, DriveCommand, HelmCommand, CourseCommand>;
 
+/// Thrust of a drone that moves in all axes, each -1..1 of its full force or moment. With a
+/// controller of the drone on, heave and yaw are rates.
+struct MotionCommand {
+  double surge = 0.0;  ///< forward positive
+  double sway = 0.0;   ///< starboard positive
+  double heave = 0.0;  ///< down positive
+  double roll = 0.0;   ///< starboard side down positive
+  double pitch = 0.0;  ///< bow up positive
+  double yaw = 0.0;    ///< clockwise seen from above positive
+  double slow = 0.0;   ///< 0..1, lowers the gain
+  double boost = 0.0;  ///< 0..1, raises the gain
+};
+
+/// Speed of a drone's camera tilt, -1..1, up positive.
+struct TiltCommand {
+  double velocity = 0.0;
+};
+
+/// Speeds of a drone's gripper, -1..1: opening positive, clockwise positive.
+struct GripperCommand {
+  double grip = 0.0;
+  double rotate = 0.0;
+};
+
+/// What a drone keeps doing until it is told otherwise: a default constructed one ends it.
+using DroneCommand = std::variant<MotionCommand, TiltCommand, GripperCommand>;
+
 /// How the payload is, for the vehicle's safety rules.
 struct PayloadStatus {
   bool ok = true;

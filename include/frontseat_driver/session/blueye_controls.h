@@ -1,0 +1,99 @@
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <list>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "frontseat_driver/session/blueye_requests.h"
+#include "frontseat_driver/session/command_slot.h"
+#include "frontseat_driver/vehicle/command.h"
+
+namespace frontseat_driver::session {
+
+/// What the drone keeps doing until it is told otherwise: motion, tilt, gripper. Each has one
+/// newest-value slot, repeated while it is fresh. When it ends, zero goes out at once and again
+/// each second for three seconds, since a control message may be lost and is never answered.
+class HeldControls {
+ public:
+  using SteadyTime = vehicle::SteadyTime;
+
+  /// `clockwise_yaw`: what the drone takes a positive yaw for.
+  HeldControls(std::chrono::nanoseconds timeout, std::chrono::nanoseconds period,
+               bool clockwise_yaw);
+
+  void put(const vehicle::DroneCommand& command, SteadyTime received);
+
+  /// Ends what is going on; what is not going on gets its zeros only if `all`.
+  void end(SteadyTime now, bool all);
+
+  /// Ends everything and sends nothing: somebody else is in control, or nobody hears.
+  void forget();
+
+  void step(const vehicle::Now& now, BlueyeOutput& out);
+
+  SteadyTime nextStep() const;
+
+  /// A fresh command is being repeated.
+  bool commanding() const;
+
+  /// Zeros that have not gone out for the first time.
+  bool zerosDue() const;
+
+  const std::optional<vehicle::DroneCommand>& motion() const { return held_[0].slot.command(); }
+
+ private:
+  struct Held {
+    BasicCommandSlot<vehicle::DroneCommand> slot;
+    int zeros = 0;  ///< still to go out
+    SteadyTime zero_due{};
+  };
+
+  void end(Held& held, SteadyTime now);
+  bool send(const vehicle::Now& now, const vehicle::DroneCommand& command, BlueyeOutput& out) const;
+
+  std::array<Held, std::variant_size_v<vehicle::DroneCommand>> held_;
+  const bool clockwise_yaw_;
+};
+
+/// Control messages that telemetry confirms. Sent at once and, where that does no harm, again until
+/// the telemetry shows their effect or time is up; each is answered once.
+class ConfirmedControls {
+ public:
+  using SteadyTime = vehicle::SteadyTime;
+  /// Empty: confirmed. Else why not, for people.
+  using Respond = std::function<void(const std::string& refusal)>;
+
+  struct Control {
+    std::string type;  ///< with package
+    std::string payload;
+    bool repeat = false;       ///< sending it twice is as good as once
+    std::string confirmed_by;  ///< telemetry type with package; empty: sent is done
+    /// Whether this telemetry shows the effect.
+    std::function<bool(std::string_view payload)> shows;
+    std::chrono::milliseconds timeout{2000};
+    Respond respond;  ///< may be empty
+  };
+
+  /// Takes the place of one of the same type that waits.
+  void add(const vehicle::Now& now, Control control, BlueyeOutput& out);
+
+  void telemetry(std::string_view type, std::string_view payload);
+  void step(const vehicle::Now& now, BlueyeOutput& out);
+  SteadyTime nextStep() const;
+  void failAll(const std::string& reason);
+
+ private:
+  struct Waiting {
+    Control control;
+    SteadyTime deadline;
+    SteadyTime again;
+  };
+
+  std::list<Waiting> waiting_;
+};
+
+}  // namespace frontseat_driver::session

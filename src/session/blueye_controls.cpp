@@ -1,0 +1,183 @@
+#include "frontseat_driver/session/blueye_controls.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "blueye/control.pb.h"
+
+namespace frontseat_driver::session {
+
+namespace {
+
+using namespace std::chrono_literals;
+using vehicle::DroneCommand;
+
+constexpr int kZeros = 4;  // at once and each second for three seconds
+constexpr auto kZeroPeriod = 1s;
+constexpr auto kRepeatPeriod = 500ms;
+
+template <class Message>
+bool publish(const vehicle::Now& now, const Message& message, BlueyeOutput& out) {
+  return out.publish(now, message.GetTypeName(), message.SerializeAsString());
+}
+
+// All fields in every message: the drone takes each message whole.
+blueye::protocol::MotionInputCtrl toMessage(const vehicle::MotionCommand& motion,
+                                            bool clockwise_yaw) {
+  blueye::protocol::MotionInputCtrl message;
+  auto& input = *message.mutable_motion_input();
+  input.set_surge(static_cast<float>(motion.surge));
+  input.set_sway(static_cast<float>(motion.sway));
+  input.set_heave(static_cast<float>(motion.heave));
+  input.set_roll(static_cast<float>(motion.roll));
+  input.set_pitch(static_cast<float>(motion.pitch));
+  input.set_yaw(static_cast<float>(clockwise_yaw ? motion.yaw : 0.0 - motion.yaw));
+  input.set_slow(static_cast<float>(motion.slow));
+  input.set_boost(static_cast<float>(motion.boost));
+  return message;
+}
+
+DroneCommand zeroOf(std::size_t kind) {
+  if (kind == 0) return vehicle::MotionCommand{};
+  if (kind == 1) return vehicle::TiltCommand{};
+  return vehicle::GripperCommand{};
+}
+
+}  // namespace
+
+HeldControls::HeldControls(std::chrono::nanoseconds timeout, std::chrono::nanoseconds period,
+                           bool clockwise_yaw)
+    : held_{Held{{timeout, period}}, Held{{timeout, period}}, Held{{timeout, period}}},
+      clockwise_yaw_(clockwise_yaw) {}
+
+void HeldControls::put(const DroneCommand& command, SteadyTime received) {
+  Held& held = held_[command.index()];
+  held.slot.put(command, received);
+  held.zeros = 0;
+}
+
+void HeldControls::end(Held& held, SteadyTime now) {
+  held.slot.clear();
+  held.zeros = kZeros;
+  held.zero_due = now;
+}
+
+void HeldControls::end(SteadyTime now, bool all) {
+  for (Held& held : held_) {
+    if (all || held.slot.occupied()) end(held, now);
+  }
+}
+
+void HeldControls::forget() {
+  for (Held& held : held_) {
+    held.slot.clear();
+    held.zeros = 0;
+  }
+}
+
+void HeldControls::step(const vehicle::Now& now, BlueyeOutput& out) {
+  for (std::size_t kind = 0; kind < held_.size(); ++kind) {
+    Held& held = held_[kind];
+    if (held.slot.stale(now.steady)) end(held, now.steady);
+    if (held.zeros > 0 && now.steady >= held.zero_due) {
+      // One that was not taken counts as not sent.
+      if (send(now, zeroOf(kind), out)) --held.zeros;
+      held.zero_due = now.steady + (held.zeros == kZeros ? 20ms : kZeroPeriod);
+    }
+    if (const DroneCommand* due = held.slot.due(now.steady)) {
+      send(now, *due, out);
+      held.slot.sent(now.steady);
+    }
+  }
+}
+
+bool HeldControls::send(const vehicle::Now& now, const DroneCommand& command,
+                        BlueyeOutput& out) const {
+  if (const auto* motion = std::get_if<vehicle::MotionCommand>(&command)) {
+    return publish(now, toMessage(*motion, clockwise_yaw_), out);
+  }
+  if (const auto* tilt = std::get_if<vehicle::TiltCommand>(&command)) {
+    blueye::protocol::TiltVelocityCtrl message;
+    message.mutable_velocity()->set_value(static_cast<float>(tilt->velocity));
+    return publish(now, message, out);
+  }
+  const auto& gripper = std::get<vehicle::GripperCommand>(command);
+  blueye::protocol::GripperCtrl message;
+  message.mutable_gripper_velocities()->set_grip_velocity(static_cast<float>(gripper.grip));
+  message.mutable_gripper_velocities()->set_rotate_velocity(static_cast<float>(gripper.rotate));
+  return publish(now, message, out);
+}
+
+vehicle::SteadyTime HeldControls::nextStep() const {
+  SteadyTime next = SteadyTime::max();
+  for (const Held& held : held_) {
+    next = std::min({next, held.slot.nextDue(), held.slot.staleAt()});
+    if (held.zeros > 0) next = std::min(next, held.zero_due);
+  }
+  return next;
+}
+
+bool HeldControls::commanding() const {
+  return std::any_of(held_.begin(), held_.end(),
+                     [](const Held& held) { return held.slot.occupied(); });
+}
+
+bool HeldControls::zerosDue() const {
+  return std::any_of(held_.begin(), held_.end(),
+                     [](const Held& held) { return held.zeros == kZeros; });
+}
+
+void ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutput& out) {
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const bool same = it->control.type == control.type;
+    if (same && it->control.respond) it->control.respond("a newer one took its place");
+    it = same ? waiting_.erase(it) : std::next(it);
+  }
+  const bool sent = out.publish(now, control.type, control.payload);
+  if (!control.confirmed_by.empty()) {
+    const SteadyTime again = sent ? now.steady + kRepeatPeriod : now.steady;
+    waiting_.push_back({std::move(control), now.steady, again});
+    waiting_.back().deadline += waiting_.back().control.timeout;
+  } else if (control.respond) {
+    control.respond(sent ? "" : "the link did not take it");
+  }
+}
+
+void ConfirmedControls::telemetry(std::string_view type, std::string_view payload) {
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const bool shown = it->control.confirmed_by == type && it->control.shows(payload);
+    if (shown && it->control.respond) it->control.respond("");
+    it = shown ? waiting_.erase(it) : std::next(it);
+  }
+}
+
+void ConfirmedControls::step(const vehicle::Now& now, BlueyeOutput& out) {
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const bool late = now.steady >= it->deadline;
+    if (late && it->control.respond) {
+      it->control.respond("sent, but the drone's telemetry did not show it in time");
+    }
+    if (!late && it->control.repeat && now.steady >= it->again) {
+      out.publish(now, it->control.type, it->control.payload);
+      it->again = now.steady + kRepeatPeriod;
+    }
+    it = late ? waiting_.erase(it) : std::next(it);
+  }
+}
+
+vehicle::SteadyTime ConfirmedControls::nextStep() const {
+  SteadyTime next = SteadyTime::max();
+  for (const Waiting& waiting : waiting_) {
+    next = std::min(next, waiting.deadline);
+    if (waiting.control.repeat) next = std::min(next, waiting.again);
+  }
+  return next;
+}
+
+void ConfirmedControls::failAll(const std::string& reason) {
+  for (std::list<Waiting> all = std::exchange(waiting_, {}); !all.empty(); all.pop_front()) {
+    if (all.front().control.respond) all.front().control.respond(reason);
+  }
+}
+
+}  // namespace frontseat_driver::session

@@ -1,0 +1,58 @@
+#include "frontseat_driver/session/blueye_requests.h"
+
+#include <utility>
+
+namespace frontseat_driver::session {
+
+namespace {
+
+// How soon a request is tried again that the link did not take: a connection is being made.
+constexpr std::chrono::milliseconds kRetry{20};
+
+}  // namespace
+
+void BlueyeRequests::add(const vehicle::Now& now, std::string type, std::string payload,
+                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out) {
+  if (waiting_.size() >= kMost) {
+    return respond(now, {false, {}, {}, "too many requests are waiting for the drone"}, out);
+  }
+  waiting_.push_back({std::move(type), std::move(payload), timeout, std::move(respond)});
+}
+
+void BlueyeRequests::reply(const vehicle::Now& now, std::string_view type, std::string_view payload,
+                           BlueyeOutput& out) {
+  if (under_way_) answer(now, {true, type, payload, {}}, out);
+}
+
+void BlueyeRequests::noReply(const vehicle::Now& now, const std::string& reason,
+                             BlueyeOutput& out) {
+  if (under_way_) answer(now, {false, {}, {}, reason}, out);
+}
+
+void BlueyeRequests::answer(const vehicle::Now& now, const BlueyeReply& reply, BlueyeOutput& out) {
+  const Respond respond = std::move(waiting_.front().respond);
+  waiting_.pop_front();
+  under_way_ = false;
+  respond(now, reply, out);
+}
+
+void BlueyeRequests::step(const vehicle::Now& now, BlueyeOutput& out) {
+  if (under_way_ || waiting_.empty() || now.steady < retry_at_) return;
+  const Waiting& first = waiting_.front();
+  under_way_ = out.request(now, first.type, first.payload, first.timeout);
+  if (!under_way_) retry_at_ = now.steady + kRetry;
+}
+
+vehicle::SteadyTime BlueyeRequests::nextStep() const {
+  return under_way_ || waiting_.empty() ? vehicle::SteadyTime::max() : retry_at_;
+}
+
+void BlueyeRequests::failAll(const vehicle::Now& now, const std::string& reason,
+                             BlueyeOutput& out) {
+  under_way_ = false;
+  for (std::deque<Waiting> all = std::exchange(waiting_, {}); !all.empty(); all.pop_front()) {
+    all.front().respond(now, {false, {}, {}, reason}, out);
+  }
+}
+
+}  // namespace frontseat_driver::session

@@ -1,0 +1,643 @@
+#include "frontseat_driver/session/blueye_session.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "blueye/control.pb.h"
+#include "blueye/req_rep.pb.h"
+#include "blueye/telemetry.pb.h"
+
+namespace frontseat_driver::session {
+
+namespace {
+
+using namespace std::chrono_literals;
+namespace pb = blueye::protocol;
+using vehicle::Grant;
+using vehicle::Now;
+using State = vehicle::MissionStatus::State;
+
+constexpr std::string_view kPackage = "blueye.protocol.";
+constexpr auto kWatchdogPeriod = 1s;
+constexpr auto kPingTimeout = 1s;
+constexpr auto kRegisterAgain = 1s;
+constexpr auto kGoodbyeTimeout = 50ms;
+constexpr auto kAskAgain = 100ms;
+constexpr auto kOvertaken = 1s;
+constexpr double kMostRate_hz = 100.0;  // the document, SetPubFrequencyReq
+
+// What a program wants to know at once, and the drone tells only when it changes.
+constexpr std::array<const char*, 8> kAskedAtStart{
+    "DroneInfoTel", "ControlModeTel", "ConnectedClientsTel", "MissionStatusTel",
+    "BatteryTel",   "LightsTel",      "RecordStateTel",      "MagneticDeclinationTel"};
+
+constexpr const char* kNoConnection = "there is no connection to the vehicle";
+constexpr const char* kLeaving = "the driver is stopping";
+constexpr const char* kRecord = "a record is being played";
+
+std::chrono::nanoseconds periodOf(double rate_hz) {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double>{1.0 / rate_hz});
+}
+
+bool endsWith(std::string_view text, std::string_view end) {
+  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
+}
+
+std::string_view withoutPackage(std::string_view type) { return type.substr(type.rfind('.') + 1); }
+
+template <class Message>
+bool parse(std::string_view payload, Message& message) {
+  return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
+}
+
+bool names(const pb::ConnectedClientsTel& message, std::uint32_t id) {
+  const auto& clients = message.connected_clients();
+  return std::any_of(clients.begin(), clients.end(),
+                     [id](const pb::ConnectedClient& client) { return client.client_id() == id; });
+}
+
+/// The state in common words; the drone has no word for some of the others.
+State toState(pb::MissionState state) {
+  switch (state) {
+    case pb::MISSION_STATE_INACTIVE:
+      return State::Waiting;
+    case pb::MISSION_STATE_READY:
+      return State::Ready;
+    case pb::MISSION_STATE_RUNNING:
+      return State::Running;
+    case pb::MISSION_STATE_PAUSED:
+      return State::Stopped;
+    case pb::MISSION_STATE_COMPLETED:
+      return State::Completed;
+    case pb::MISSION_STATE_ABORTED:
+    case pb::MISSION_STATE_FAILED_TO_START_MISSION:
+      return State::Aborted;
+    case pb::MISSION_STATE_FAILED_TO_LOAD_MISSION:
+      return State::InvalidDiveFile;
+    default:
+      return State::Unknown;
+  }
+}
+
+std::string_view toWords(pb::MissionState state) {
+  switch (state) {
+    case pb::MISSION_STATE_INACTIVE:
+      return "inactive";
+    case pb::MISSION_STATE_READY:
+      return "ready";
+    case pb::MISSION_STATE_RUNNING:
+      return "running";
+    case pb::MISSION_STATE_PAUSED:
+      return "paused";
+    case pb::MISSION_STATE_COMPLETED:
+      return "completed";
+    case pb::MISSION_STATE_ABORTED:
+      return "aborted";
+    case pb::MISSION_STATE_FAILED_TO_LOAD_MISSION:
+      return "failed to load";
+    case pb::MISSION_STATE_FAILED_TO_START_MISSION:
+      return "failed to start";
+    default:
+      return "unspecified";
+  }
+}
+
+}  // namespace
+
+BlueyeSession::BlueyeSession(BlueyeOptions options, BlueyeListener& listener)
+    : options_(std::move(options)),
+      listener_(listener),
+      rates_hz_(options_.rates_hz),
+      commands_enabled_(options_.commands_enabled),
+      held_(options_.command_timeout, periodOf(options_.command_rate_hz), options_.clockwise_yaw) {}
+
+// --- The connection ---
+
+void BlueyeSession::connected(const Now& now, BlueyeOutput&) {
+  connected_ = true;
+  if (!silent()) register_due_ = now.steady;
+  reportControl(now);
+}
+
+void BlueyeSession::disconnected(const Now& now, BlueyeOutput& out) {
+  connected_ = false;
+  register_due_ = SteadyTime::max();
+  drone_uptime_.reset();
+  mission_ = State::Unknown;
+  goodbye_said_ = true;
+  loseRegistration(now);
+  clients_.clear();
+  const std::string reason = "the connection was lost before the drone answered";
+  requests_.failAll(now, reason, out);
+  registering_ = false;
+  if (taking_) finishTaking(now, {false, reason}, out);
+  listener_.clients(now);
+}
+
+void BlueyeSession::loseRegistration(const Now& now) {
+  id_ = 0;
+  id_in_control_ = 0;
+  watchdog_due_ = SteadyTime::max();
+  held_.forget();
+  confirmed_.failAll("control was lost before the drone showed it");
+  reportControl(now);
+}
+
+// Whatever fails on the way is tried again from the start.
+void BlueyeSession::ping(const Now& now, BlueyeOutput& out) {
+  register_due_ = SteadyTime::max();
+  registering_ = true;
+  const pb::PingReq request;
+  requests_.add(
+      now, request.GetTypeName(), {}, kPingTimeout,
+      [this](const Now& then, const BlueyeReply& reply, BlueyeOutput& o) {
+        if (!reply.received) {
+          registering_ = false;
+          if (connected_ && !silent()) register_due_ = then.steady + kRegisterAgain;
+          return;
+        }
+        registerClient(
+            then, options_.observer, [this](const Now& n, BlueyeOutput& o2) { setUp(n, o2); }, o);
+      },
+      out);
+}
+
+void BlueyeSession::registerClient(const Now& now, bool observer, Then then, BlueyeOutput& out) {
+  registering_ = true;
+  pb::ConnectClientReq request;
+  pb::ClientInfo& info = *request.mutable_client_info();
+  info.set_type("ROS");
+  info.set_version("frontseat_driver");
+  info.set_device_type("Computer");
+  info.set_platform("Linux");
+  info.set_name(options_.client_name);
+  info.set_is_observer(observer);
+  requests_.add(
+      now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
+      [this, observer, then = std::move(then)](const Now& at, const BlueyeReply& reply,
+                                               BlueyeOutput& o) {
+        registering_ = false;
+        pb::ConnectClientRep message;
+        if (!reply.received || !parse(reply.payload, message) || message.client_id() == 0) {
+          loseRegistration(at);
+          if (connected_ && !silent()) register_due_ = at.steady + kRegisterAgain;
+          if (taking_) finishTaking(at, {false, "the drone did not register this client"}, o);
+          return;
+        }
+        id_ = message.client_id();
+        as_observer_ = observer;
+        registered_since_ = at.steady;
+        learnClients(at, message, o);
+        if (then) then(at, o);
+      },
+      out);
+}
+
+void BlueyeSession::unregister(const Now& now, std::uint32_t id, Then then, BlueyeOutput& out) {
+  registering_ = true;
+  pb::DisconnectClientReq request;
+  request.set_client_id(id);
+  const auto timeout = leaving_ ? kGoodbyeTimeout : options_.request_timeout;
+  requests_.add(
+      now, request.GetTypeName(), request.SerializeAsString(), timeout,
+      [this, then = std::move(then)](const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
+        registering_ = false;
+        pb::DisconnectClientRep message;
+        if (reply.received && parse(reply.payload, message)) learnClients(at, message, o);
+        then(at, o);
+      },
+      out);
+}
+
+void BlueyeSession::setUp(const Now& now, BlueyeOutput& out) {
+  for (const auto& [message, rate_hz] : rates_hz_) askForRate(now, message, rate_hz, {}, out);
+  for (const char* message : kAskedAtStart) askForTelemetry(now, message, out);
+}
+
+void BlueyeSession::askForTelemetry(const Now& now, const char* message, BlueyeOutput& out) {
+  pb::GetTelemetryReq request;
+  request.set_message_type(message);
+  requests_.add(
+      now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
+      [this](const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
+        pb::GetTelemetryRep answer;
+        if (!reply.received || !parse(reply.payload, answer)) return;
+        const std::string& url = answer.payload().type_url();
+        if (url.empty()) return;  // none yet
+        hear(at, std::string_view{url}.substr(url.rfind('/') + 1), answer.payload().value(), true,
+             o);
+      },
+      out);
+}
+
+void BlueyeSession::askForRate(const Now& now, const std::string& message, double rate_hz,
+                               Respond respond, BlueyeOutput& out) {
+  pb::SetPubFrequencyReq request;
+  request.set_message_type(message);
+  request.set_frequency(static_cast<float>(rate_hz));
+  requests_.add(
+      now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
+      [this, message, respond](const Now&, const BlueyeReply& reply, BlueyeOutput&) {
+        pb::SetPubFrequencyRep answer;
+        const bool parsed = reply.received && parse(reply.payload, answer);
+        const std::string trouble =
+            !reply.received ? reply.reason
+            : !parsed || !answer.success()
+                ? "the drone refused a rate for " + message + ": unknown name or rate out of range"
+                : std::string{};
+        if (respond) return respond({trouble.empty(), trouble.empty() ? "done" : trouble});
+        if (!trouble.empty()) listener_.note("rate of " + message + ": " + trouble);
+      },
+      out);
+}
+
+// --- What the drone says ---
+
+void BlueyeSession::telemetry(const Now& now, std::string_view type, std::string_view payload,
+                              BlueyeOutput& out) {
+  ++counters_.telemetry_received;
+  counters_.bytes_received += type.size() + payload.size();
+  hear(now, type, payload, false, out);
+}
+
+void BlueyeSession::hear(const Now& now, std::string_view type, std::string_view payload,
+                         bool in_order, BlueyeOutput& out) {
+  listener_.telemetry(now, type, payload);
+  const std::string_view name = withoutPackage(type);
+  if (name == "ConnectedClientsTel") hearClients(now, payload, in_order, out);
+  if (name == "MissionStatusTel") hearMission(now, payload);
+  if (name == "DroneTimeTel") hearClock(now, payload, out);
+  confirmed_.telemetry(type, payload);
+}
+
+void BlueyeSession::hearClients(const Now& now, std::string_view payload, bool in_order,
+                                BlueyeOutput& out) {
+  pb::ConnectedClientsTel message;
+  if (!parse(payload, message)) return malformed();
+  // While we come and go ourselves, this may tell of us as we were.
+  if (registering_) return;
+  // Telemetry and replies come on two connections: for a while this may be older than the last
+  // reply. A reply to a question is not.
+  if (!in_order && now.steady < registered_since_ + kOvertaken && registered() && !silent()) {
+    if (message.client_id_in_control() != id_in_control_ || !names(message, id_)) {
+      askForTelemetry(now, "ConnectedClientsTel", out);
+    }
+    return;
+  }
+  learnClients(now, message, out);
+  if (!registered() || names(message, id_) || clients_.empty()) return;
+  listener_.note("the drone has disconnected this client; registering again");
+  loseRegistration(now);
+  if (!silent()) register_due_ = now.steady + kRegisterAgain;
+}
+
+template <class Message>
+void BlueyeSession::learnClients(const Now& now, const Message& message, BlueyeOutput& out) {
+  clients_.clear();
+  for (const pb::ConnectedClient& client : message.connected_clients()) {
+    const pb::ClientInfo& info = client.client_info();
+    clients_.push_back({client.client_id(), info.name(), info.type(), info.is_observer()});
+  }
+  setIdInControl(now, message.client_id_in_control(), out);
+  listener_.clients(now);
+}
+
+void BlueyeSession::setIdInControl(const Now& now, std::uint32_t id, BlueyeOutput& out) {
+  const bool had_control = inControl();
+  id_in_control_ = id;
+  if (inControl() && !had_control && !silent()) gainControl(now, out);
+  if (had_control && !inControl()) {
+    watchdog_due_ = SteadyTime::max();
+    held_.forget();
+    confirmed_.failAll("control was lost before the drone showed it");
+  }
+  reportControl(now);
+}
+
+// The watchdog arms the thrusters, and the drone may hold what somebody else last sent.
+void BlueyeSession::gainControl(const Now& now, BlueyeOutput& out) {
+  watchdog_due_ = now.steady;
+  held_.end(now.steady, true);
+  if (options_.sync_time) {
+    pb::SyncTimeReq request;
+    auto& time = *request.mutable_time()->mutable_unix_timestamp();
+    time.set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now.utc).count());
+    time.set_nanos(static_cast<std::int32_t>((now.utc % 1s).count()));
+    requests_.add(
+        now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
+        [](const Now&, const BlueyeReply&, BlueyeOutput&) {}, out);
+  }
+  if (options_.water_density_kg_m3) {
+    pb::WaterDensityCtrl message;
+    message.mutable_density()->set_value(static_cast<float>(*options_.water_density_kg_m3));
+    out.publish(now, message.GetTypeName(), message.SerializeAsString());
+  }
+  if (options_.pinger_mounting != PingerMounting::Unset) {
+    pb::PingerConfigurationCtrl message;
+    const bool forwards = options_.pinger_mounting == PingerMounting::Forwards;
+    message.mutable_configuration()->set_mounting_direction(
+        forwards ? pb::PingerConfiguration::MOUNTING_DIRECTION_FORWARDS
+                 : pb::PingerConfiguration::MOUNTING_DIRECTION_DOWNWARDS);
+    out.publish(now, message.GetTypeName(), message.SerializeAsString());
+  }
+}
+
+void BlueyeSession::hearMission(const Now& now, std::string_view payload) {
+  pb::MissionStatusTel message;
+  if (!parse(payload, message)) return malformed();
+  const State state = toState(message.mission_status().state());
+  if (state == mission_) return;
+  mission_ = state;
+  vehicle::MissionStatus event;
+  event.state = state;
+  event.status = toWords(message.mission_status().state());
+  listener_.event(now, event);
+}
+
+void BlueyeSession::hearClock(const Now& now, std::string_view payload, BlueyeOutput& out) {
+  pb::DroneTimeTel message;
+  if (!parse(payload, message)) return malformed();
+  if (!message.monotonic_clock().has_unix_timestamp() || options_.listen_only) return;
+  const auto& time = message.monotonic_clock().unix_timestamp();
+  const auto uptime = std::chrono::seconds{time.seconds()} + std::chrono::nanoseconds{time.nanos()};
+  const bool rebooted = drone_uptime_ && uptime + 1s < *drone_uptime_;
+  drone_uptime_ = uptime;
+  if (rebooted) out.reconnect(now, "the drone was rebooted");
+}
+
+void BlueyeSession::reply(const Now& now, std::string_view type, std::string_view payload,
+                          BlueyeOutput& out) {
+  ++counters_.replies_received;
+  counters_.bytes_received += type.size() + payload.size();
+  requests_.reply(now, type, payload, out);
+}
+
+void BlueyeSession::noReply(const Now& now, const std::string& reason, BlueyeOutput& out) {
+  requests_.noReply(now, reason, out);
+}
+
+// --- What the user wants ---
+
+std::string BlueyeSession::refusal() const {
+  if (leaving_) return kLeaving;
+  if (options_.listen_only) return kRecord;
+  if (!connected_) return kNoConnection;
+  if (!registered()) return "the drone has not registered this client yet";
+  if (!commands_enabled_) return "the command gate is closed; service enable_commands opens it";
+  if (inControl()) return {};
+  for (const BlueyeClient& client : clients_) {
+    if (client.id != id_in_control_) continue;
+    return "client " + std::to_string(client.id) + " (" + client.name +
+           ") is in control; service take_control takes it";
+  }
+  return "this client is not in control; service take_control takes it";
+}
+
+Grant BlueyeSession::grant() const {
+  if (!connected_ || !registered()) return Grant::Unknown;
+  return inControl() ? Grant::Granted : Grant::Denied;
+}
+
+std::string BlueyeSession::command(const Now& now, const vehicle::DroneCommand& command,
+                                   SteadyTime received) {
+  std::string reason = refusal();
+  if (reason.empty() && received < permitted_since_) {
+    reason = "it is from before the last stop or permission";
+  }
+  if (reason.empty() && now.steady - received >= options_.command_timeout) {
+    reason = "it waited in this computer for longer than command_timeout";
+  }
+  if (!reason.empty()) {
+    ++counters_.refused_commands;
+    return reason;
+  }
+  held_.put(command, received);
+  reportControl(now);
+  return {};
+}
+
+void BlueyeSession::endCommanding(const Now& now, bool all) {
+  if (inControl()) {
+    held_.end(now.steady, all);
+  } else {
+    held_.forget();
+  }
+  reportControl(now);
+}
+
+std::string BlueyeSession::stop(const Now& now, BlueyeOutput& out) {
+  permitted_since_ = now.steady;
+  confirmed_.failAll("commanding was stopped");
+  if (silent() || !inControl()) {
+    endCommanding(now, false);
+    return "commanding has ended; this client is not in control, so nothing was sent";
+  }
+  endCommanding(now, true);
+  held_.step(now, out);
+  if (mission_ != State::Running) return "commanding has ended";
+  out.publish(now, pb::PauseMissionCtrl{}.GetTypeName(), {});
+  return "commanding has ended and the mission is paused";
+}
+
+std::string BlueyeSession::abort(const Now& now, BlueyeOutput& out) {
+  const std::string stopped = stop(now, out);
+  if (silent() || !inControl()) return stopped;
+  out.publish(now, pb::ClearMissionCtrl{}.GetTypeName(), {});
+  return "commanding has ended and the mission is cleared";
+}
+
+void BlueyeSession::setCommandsEnabled(const Now& now, bool enabled) {
+  commands_enabled_ = enabled;
+  if (!enabled) {
+    confirmed_.failAll("the command gate was closed");
+    endCommanding(now, false);
+  }
+  reportControl(now);
+}
+
+void BlueyeSession::takeControl(const Now& now, Respond respond, BlueyeOutput& out) {
+  if (inControl()) return respond({true, "this client is in control"});
+  if (leaving_) return respond({false, kLeaving});
+  if (options_.listen_only) return respond({false, kRecord});
+  if (!registered()) return respond({false, connected_ ? refusal() : kNoConnection});
+  if (taking_ || registering_) return respond({false, "control is being asked for already"});
+  taking_ = Taking{now.steady + options_.control_timeout, SteadyTime::max(), std::move(respond)};
+  const Then go_on = [this](const Now& at, BlueyeOutput& o) { continueTaking(at, o); };
+  if (!as_observer_) return continueTaking(now, out);
+  unregister(
+      now, id_,
+      [this, go_on](const Now& at, BlueyeOutput& o) { registerClient(at, false, go_on, o); }, out);
+}
+
+void BlueyeSession::continueTaking(const Now& now, BlueyeOutput& out) {
+  if (!taking_) return;
+  if (inControl()) return finishTaking(now, {true, "this client is in control"}, out);
+  if (now.steady >= taking_->deadline) {
+    return finishTaking(now, {false, "client " + std::to_string(id_in_control_) + " keeps control"},
+                        out);
+  }
+  // The next look comes from step(): the drone may need a moment.
+  taking_->again = SteadyTime::max();
+  unregister(
+      now, id_in_control_,
+      [this](const Now& at, BlueyeOutput&) {
+        if (taking_) taking_->again = at.steady + (inControl() ? 0ms : kAskAgain);
+      },
+      out);
+}
+
+void BlueyeSession::finishTaking(const Now& now, const Answer& answer, BlueyeOutput& out) {
+  const Respond respond = std::move(taking_->respond);
+  taking_.reset();
+  respond(answer);
+  // Else control would come later, when nobody expects it.
+  const bool go_back = !answer.success && registered() && options_.observer && !as_observer_;
+  if (!go_back) return;
+  unregister(
+      now, id_, [this](const Now& at, BlueyeOutput& o) { registerClient(at, true, {}, o); }, out);
+}
+
+void BlueyeSession::releaseControl(const Now& now, Respond respond, BlueyeOutput& out) {
+  if (silent()) return respond({false, leaving_ ? kLeaving : kRecord});
+  if (!registered()) return respond({false, connected_ ? refusal() : kNoConnection});
+  if (taking_ || registering_) return respond({false, "control is being asked for just now"});
+  if (as_observer_) return respond({true, "this client is an observer"});
+  endCommanding(now, true);
+  held_.step(now, out);
+  unregister(
+      now, id_,
+      [this, respond](const Now& at, BlueyeOutput& o) {
+        loseRegistration(at);
+        registerClient(
+            at, true,
+            [respond](const Now&, BlueyeOutput&) {
+              respond({true, "control was given back; this client is an observer"});
+            },
+            o);
+      },
+      out);
+}
+
+std::string BlueyeSession::refusalOf(std::string_view control_type) const {
+  const std::string_view name = withoutPackage(control_type);
+  if (!endsWith(name, "Ctrl")) return "its name does not end in Ctrl";
+  if (name == "MotionInputCtrl") return "motion goes by topic cmd_motion or cmd_vel";
+  if (name == "TiltVelocityCtrl") return "tilt goes by topic cmd_tilt";
+  if (name == "GripperCtrl") return "the gripper goes by topic cmd_gripper";
+  if (name == "WatchdogCtrl") return "the driver sends the watchdog itself";
+  if (name == "FormatRemovableStorageDeviceCtrl" && !options_.allow_format) {
+    return "it destroys data; parameter allow_format permits it";
+  }
+  return refusal();
+}
+
+void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, BlueyeOutput& out) {
+  const std::string reason = refusalOf(control.type);
+  if (!reason.empty()) {
+    ++counters_.refused_commands;
+    if (control.respond) control.respond(reason);
+    return;
+  }
+  confirmed_.add(now, std::move(control), out);
+}
+
+void BlueyeSession::request(const Now& now, std::string type, std::string payload,
+                            std::chrono::milliseconds timeout, RespondReply respond,
+                            BlueyeOutput& out) {
+  const std::string_view name = withoutPackage(type);
+  const auto refuse = [&](const std::string& reason) { respond({false, {}, {}, reason}); };
+  if (!endsWith(name, "Req")) return refuse("its name does not end in Req");
+  if (leaving_) return refuse(kLeaving);
+  if (options_.listen_only) return refuse(kRecord);
+  if (!connected_) return refuse(kNoConnection);
+  if (name == "FlashEscSettingsReq" && !options_.allow_flash) {
+    return refuse("it writes to the motor controllers; parameter allow_flash permits it");
+  }
+  requests_.add(
+      now, std::move(type), std::move(payload), timeout,
+      [respond = std::move(respond)](const Now&, const BlueyeReply& reply, BlueyeOutput&) {
+        respond(reply);
+      },
+      out);
+}
+
+void BlueyeSession::setRate(const Now& now, const std::string& message, double rate_hz,
+                            Respond respond, BlueyeOutput& out) {
+  if (!(rate_hz >= 0.0 && rate_hz <= kMostRate_hz)) {
+    return respond({false, "rate is " + std::to_string(rate_hz) + "; 0 to 100 Hz is accepted"});
+  }
+  rates_hz_[message] = rate_hz;
+  if (leaving_) return respond({false, kLeaving});
+  if (options_.listen_only) return respond({false, kRecord});
+  if (!connected_) {
+    return respond({false, std::string{kNoConnection} + "; it will be asked for when there is"});
+  }
+  askForRate(now, message, rate_hz, std::move(respond), out);
+}
+
+// --- What goes out ---
+
+void BlueyeSession::step(const Now& now, BlueyeOutput& out) {
+  if (!reported_) reportControl(now);
+  const bool was_commanding = held_.commanding();
+  held_.step(now, out);
+  if (was_commanding != held_.commanding()) reportControl(now);
+  if (now.steady >= watchdog_due_) sendWatchdog(now, out);
+  confirmed_.step(now, out);
+  if (now.steady >= register_due_) ping(now, out);
+  if (taking_ && now.steady >= taking_->again) continueTaking(now, out);
+  requests_.step(now, out);
+}
+
+void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
+  pb::WatchdogCtrl message;
+  message.set_client_id(id_);
+  const auto since = now.steady - registered_since_;
+  message.mutable_connection_duration()->set_value(
+      static_cast<std::int32_t>(std::chrono::duration_cast<std::chrono::seconds>(since).count()));
+  out.publish(now, message.GetTypeName(), message.SerializeAsString());
+  watchdog_due_ = now.steady + kWatchdogPeriod;
+}
+
+vehicle::SteadyTime BlueyeSession::nextStep() const {
+  if (!reported_) return SteadyTime::min();
+  return std::min({held_.nextStep(), watchdog_due_, confirmed_.nextStep(), register_due_,
+                   requests_.nextStep(), taking_ ? taking_->again : SteadyTime::max()});
+}
+
+void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
+  const bool in_control = inControl() && !options_.listen_only;
+  requests_.failAll(now, kLeaving, out);
+  confirmed_.failAll(kLeaving);
+  leaving_ = true;
+  register_due_ = SteadyTime::max();
+  watchdog_due_ = SteadyTime::max();
+  taking_.reset();
+  goodbye_said_ = !registered() || options_.listen_only;
+  if (in_control) {
+    held_.end(now.steady, true);
+  } else {
+    held_.forget();
+  }
+  reportControl(now);
+  if (goodbye_said_) return;
+  unregister(
+      now, id_, [this](const Now&, BlueyeOutput&) { goodbye_said_ = true; }, out);
+}
+
+// --- Reports ---
+
+void BlueyeSession::reportControl(const Now& now) {
+  Reported state{grant(), commands_enabled_, held_.commanding(), refusal()};
+  const bool permitted = state.reason.empty();
+  if (permitted && !permitted_) permitted_since_ = now.steady;
+  permitted_ = permitted;
+  if (reported_ && *reported_ == state) return;
+  reported_ = std::move(state);
+  listener_.event(now, vehicle::Control{reported_->grant, reported_->commands_enabled,
+                                        reported_->commanding, reported_->reason});
+}
+
+}  // namespace frontseat_driver::session

@@ -1,0 +1,552 @@
+// The conversation in virtual time, message by message.
+
+#include "frontseat_driver/session/blueye_session.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scripted_drone.h"
+
+namespace frontseat_driver::session {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::Not;
+using State = vehicle::MissionStatus::State;
+
+vehicle::MotionCommand forward(double surge = 0.5) {
+  vehicle::MotionCommand motion;
+  motion.surge = surge;
+  return motion;
+}
+
+pb::DroneTimeTel clockAt(std::int64_t uptime_s) {
+  pb::DroneTimeTel message;
+  message.mutable_monotonic_clock()->mutable_unix_timestamp()->set_seconds(uptime_s);
+  return message;
+}
+
+pb::MissionStatusTel missionIn(pb::MissionState state) {
+  pb::MissionStatusTel message;
+  message.mutable_mission_status()->set_state(state);
+  return message;
+}
+
+TEST(BlueyeSession, RegistersAsAnObserverAndThenAsksForWhatItNeeds) {
+  BlueyeOptions options;
+  options.client_name = "lab";
+  options.rates_hz = {{"CalibratedImuTel", 100.0}};
+  ScriptedDrone drone(options);
+  drone.connect();
+  ASSERT_EQ(drone.registry.size(), 1u);
+  EXPECT_EQ(drone.registry[0].name, "lab");
+  EXPECT_TRUE(drone.registry[0].observer);
+  EXPECT_EQ(drone.session.id(), drone.registry[0].id);
+  const auto names = drone.requestNames();
+  ASSERT_GE(names.size(), 4u);
+  EXPECT_EQ(names[0], "PingReq");
+  EXPECT_EQ(names[1], "ConnectClientReq");
+  EXPECT_EQ(names[2], "SetPubFrequencyReq");
+  EXPECT_EQ(names[3], "GetTelemetryReq");
+  EXPECT_EQ(drone.control.grant, vehicle::Grant::Denied);
+  EXPECT_THAT(drone.reason, HasSubstr("take_control"));
+}
+
+TEST(BlueyeSession, KeepsAskingUntilTheDroneAnswers) {
+  ScriptedDrone drone;
+  drone.answers = false;
+  drone.session.connected(drone.now, drone);
+  drone.run(5s);
+  const auto pings = drone.requestNames();
+  EXPECT_THAT(pings, testing::Each(std::string{"PingReq"}));
+  EXPECT_EQ(pings.size(), 3u);  // each waits 1 s for its reply and 1 s after it
+  EXPECT_EQ(drone.control.grant, vehicle::Grant::Unknown);
+  drone.answers = true;
+  drone.run(2s);
+  EXPECT_TRUE(drone.session.registered());
+}
+
+TEST(BlueyeSession, AnObserverPublishesNothingAtAll) {
+  ScriptedDrone drone;
+  drone.connect();
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_THAT(drone.command(forward()), HasSubstr("not in control"));
+    drone.run(100ms);
+  }
+  drone.session.stop(drone.now, drone);
+  drone.session.setCommandsEnabled(drone.now, false);
+  drone.session.setCommandsEnabled(drone.now, true);
+  drone.run(2s);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_EQ(drone.session.counters().refused_commands, 50u);
+}
+
+TEST(BlueyeSession, TakesControlFromWhoeverHasIt) {
+  ScriptedDrone drone;
+  const auto app = drone.addClient("Blueye App");
+  drone.giveControl();
+  EXPECT_TRUE(drone.took_control);
+  EXPECT_TRUE(drone.session.inControl());
+  EXPECT_EQ(drone.in_control, drone.session.id());
+  EXPECT_THAT(drone.registry, Not(Contains(testing::Field(&BlueyeClient::id, app))));
+  EXPECT_EQ(drone.control.grant, vehicle::Grant::Granted);
+  EXPECT_EQ(drone.reason, "");
+}
+
+TEST(BlueyeSession, GivesUpOnAClientThatKeepsControlAndGoesBackToObserving) {
+  ScriptedDrone drone;
+  const auto app = drone.addClient("Blueye App");
+  drone.keeps_control = true;
+  drone.connect();
+  std::optional<BlueyeSession::Answer> answer;
+  const auto asked = drone.now.steady;
+  drone.session.takeControl(
+      drone.now, [&](const auto& given) { answer = given; }, drone);
+  while (!answer && drone.now.steady < asked + 3s) drone.run(1ms);
+  ASSERT_TRUE(answer);
+  EXPECT_FALSE(answer->success);
+  EXPECT_THAT(answer->message, HasSubstr("client " + std::to_string(app) + " keeps control"));
+  EXPECT_LE(drone.now.steady - asked, 1200ms);
+  drone.run(100ms);
+  // When the other one goes, this client must not find itself in control.
+  drone.keeps_control = false;
+  drone.removeClient(app);
+  drone.tellClients();
+  drone.run(2s);
+  EXPECT_EQ(drone.in_control, 0u);
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, SendsZeroMotionAndTheClockWhenItGainsControl) {
+  BlueyeOptions options;
+  options.water_density_kg_m3 = 1025.0;
+  options.pinger_mounting = PingerMounting::Forwards;
+  ScriptedDrone drone(options);
+  drone.giveControl();
+  ASSERT_THAT(drone.controlsOf("MotionInputCtrl"), Not(IsEmpty()));
+  EXPECT_TRUE(drone.isAtRest());
+  EXPECT_THAT(drone.requestNames(), Contains("SyncTimeReq"));
+  ASSERT_EQ(drone.controlsOf("WaterDensityCtrl").size(), 1u);
+  pb::WaterDensityCtrl density;
+  ASSERT_TRUE(density.ParseFromString(drone.controlsOf("WaterDensityCtrl")[0].payload));
+  EXPECT_FLOAT_EQ(density.density().value(), 1025.0F);
+  ASSERT_EQ(drone.controlsOf("PingerConfigurationCtrl").size(), 1u);
+}
+
+TEST(BlueyeSession, SendsTheWatchdogEachSecondWhileInControlOnly) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.run(3s);
+  EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+  drone.giveControl();
+  drone.controls.clear();
+  drone.run(10s);
+  const auto watchdogs = drone.controlsOf("WatchdogCtrl");
+  EXPECT_EQ(watchdogs.size(), 10u);
+  for (std::size_t i = 1; i < watchdogs.size(); ++i) {
+    EXPECT_EQ(watchdogs[i].at - watchdogs[i - 1].at, 1s);
+  }
+  pb::WatchdogCtrl last;
+  ASSERT_TRUE(last.ParseFromString(watchdogs.back().payload));
+  EXPECT_EQ(last.client_id(), drone.session.id());
+  EXPECT_GE(last.connection_duration().value(), 9);
+  drone.session.releaseControl(
+      drone.now, [](const auto&) {}, drone);
+  drone.run(100ms);
+  drone.controls.clear();
+  drone.run(5s);
+  EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+}
+
+TEST(BlueyeSession, RepeatsTheNewestMotionWithAllAxesAndNothingElse) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);  // past the zeros of gaining control
+  drone.controls.clear();
+  for (int i = 0; i < 100; ++i) {  // a program at 100 Hz
+    EXPECT_EQ(drone.command(forward(0.005 * i)), "");
+    drone.run(10ms);
+  }
+  const auto motions = drone.controlsOf("MotionInputCtrl");
+  // Each new command goes at once, so that none is late; nothing queues.
+  EXPECT_LE(motions.size(), 101u);
+  EXPECT_FLOAT_EQ(ScriptedDrone::motionOf(motions.back()).surge(), 0.495F);
+  drone.controls.clear();
+  drone.run(900ms);
+  const auto repeated = drone.controlsOf("MotionInputCtrl");
+  EXPECT_EQ(repeated.size(), 9u);
+  for (const auto& one : repeated) {
+    EXPECT_FLOAT_EQ(ScriptedDrone::motionOf(one).surge(), 0.495F);
+  }
+}
+
+struct Axis {
+  const char* name;
+  double vehicle::MotionCommand::*command;
+  float (pb::MotionInput::*wire)() const;
+};
+
+const Axis kAxes[] = {{"surge", &vehicle::MotionCommand::surge, &pb::MotionInput::surge},
+                      {"sway", &vehicle::MotionCommand::sway, &pb::MotionInput::sway},
+                      {"heave", &vehicle::MotionCommand::heave, &pb::MotionInput::heave},
+                      {"roll", &vehicle::MotionCommand::roll, &pb::MotionInput::roll},
+                      {"pitch", &vehicle::MotionCommand::pitch, &pb::MotionInput::pitch},
+                      {"yaw", &vehicle::MotionCommand::yaw, &pb::MotionInput::yaw},
+                      {"slow", &vehicle::MotionCommand::slow, &pb::MotionInput::slow},
+                      {"boost", &vehicle::MotionCommand::boost, &pb::MotionInput::boost}};
+
+class OneAxis : public testing::TestWithParam<Axis> {};
+
+TEST_P(OneAxis, GoesToItsFieldAloneAndKeepsItsSign) {
+  for (const bool clockwise_yaw : {true, false}) {
+    BlueyeOptions options;
+    options.clockwise_yaw = clockwise_yaw;
+    ScriptedDrone drone(options);
+    drone.giveControl();
+    vehicle::MotionCommand motion;
+    motion.*GetParam().command = 0.25;
+    drone.command(motion);
+    const auto sent = ScriptedDrone::motionOf(drone.controlsOf("MotionInputCtrl").back());
+    for (const Axis& axis : kAxes) {
+      const bool this_one = std::string{axis.name} == GetParam().name;
+      const bool turned = std::string{axis.name} == "yaw" && !clockwise_yaw;
+      EXPECT_FLOAT_EQ((sent.*axis.wire)(), !this_one ? 0.0F : turned ? -0.25F : 0.25F);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, OneAxis, testing::ValuesIn(kAxes),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(BlueyeSession, EndsAStaleCommandWithZerosWithinItsLimit) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.command(forward());
+  drone.command(vehicle::TiltCommand{0.5});
+  drone.command(vehicle::GripperCommand{1.0, -1.0});
+  const auto commanded = drone.now.steady;
+  while (!drone.isAtRest() && drone.now.steady < commanded + 5s) drone.run(1ms);
+  EXPECT_LE(drone.now.steady - commanded, 1s + 1ms);  // command_timeout
+  EXPECT_FALSE(drone.control.commanding);
+  drone.controls.clear();
+  drone.run(10s);
+  EXPECT_EQ(drone.controlsOf("MotionInputCtrl").size(), 3u);  // a second apart, for three seconds
+  EXPECT_EQ(drone.controlsOf("TiltVelocityCtrl").size(), 3u);
+  EXPECT_EQ(drone.controlsOf("GripperCtrl").size(), 3u);
+  EXPECT_TRUE(drone.isAtRest());
+}
+
+TEST(BlueyeSession, FallsSilentWhenAnotherClientTakesControl) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  drone.command(forward());
+  const auto other = drone.addClient("Blueye App");
+  drone.in_control = other;
+  drone.tellClients();
+  drone.controls.clear();
+  EXPECT_THAT(drone.command(forward()), HasSubstr("(Blueye App) is in control"));
+  drone.run(10s);
+  // Not even zero or the watchdog: they would stop or arm what the other one does.
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_EQ(drone.control.grant, vehicle::Grant::Denied);
+}
+
+TEST(BlueyeSession, RegistersAgainAsAnObserverWhenSomebodyDisconnectsIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  drone.command(forward());
+  const auto before = drone.session.id();
+  drone.removeClient(before);
+  drone.addClient("Blueye App");
+  drone.tellClients();
+  drone.controls.clear();
+  drone.run(5s);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_TRUE(drone.session.registered());
+  EXPECT_NE(drone.session.id(), before);
+  EXPECT_TRUE(drone.registry.back().observer);
+}
+
+TEST(BlueyeSession, AsksWhenTelemetryMayBeOlderThanTheLastReply) {
+  ScriptedDrone drone;
+  const auto app = drone.addClient("Blueye App");
+  drone.giveControl();
+  ASSERT_TRUE(drone.session.inControl());
+  // What the drone published before it gave control, overtaken by the reply.
+  pb::ConnectedClientsTel old;
+  old.set_client_id_in_control(app);
+  old.add_connected_clients()->set_client_id(app);
+  drone.tell(old);
+  drone.run(100ms);
+  EXPECT_TRUE(drone.session.inControl());
+  EXPECT_EQ(drone.registry.size(), 1u);
+}
+
+TEST(BlueyeSession, ForgetsEverythingWithTheConnection) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.command(forward());
+  drone.loseLink();
+  EXPECT_EQ(drone.control.grant, vehicle::Grant::Unknown);
+  EXPECT_FALSE(drone.control.commanding);
+  drone.controls.clear();
+  drone.run(2s);
+  EXPECT_EQ(drone.command(forward()), "there is no connection to the vehicle");
+  drone.connect();
+  EXPECT_THAT(drone.command(forward()), HasSubstr("not in control"));
+  drone.run(5s);
+  EXPECT_TRUE(drone.session.registered());
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, LeavesTheConnectionsOfADroneThatWasRebooted) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.tell(clockAt(1000));
+  drone.tell(clockAt(1001));
+  EXPECT_THAT(drone.reconnects, IsEmpty());
+  drone.tell(clockAt(3));
+  EXPECT_THAT(drone.reconnects, ElementsAre("the drone was rebooted"));
+}
+
+TEST(BlueyeSession, StopSendsZerosAtOnceAndPausesTheMission) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.tell(missionIn(pb::MISSION_STATE_RUNNING));
+  drone.command(forward());
+  drone.controls.clear();
+  EXPECT_THAT(drone.session.stop(drone.now, drone), HasSubstr("paused"));
+  EXPECT_TRUE(drone.isAtRest());
+  EXPECT_EQ(drone.controlsOf("MotionInputCtrl").size(), 1u);
+  EXPECT_EQ(drone.controlsOf("TiltVelocityCtrl").size(), 1u);
+  EXPECT_EQ(drone.controlsOf("GripperCtrl").size(), 1u);
+  EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 1u);
+  drone.controls.clear();
+  drone.session.abort(drone.now, drone);
+  EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 1u);
+}
+
+TEST(BlueyeSession, RefusesCommandsFromBeforeTheStop) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  const auto received = drone.now.steady;
+  drone.run(10ms);
+  drone.session.stop(drone.now, drone);
+  EXPECT_THAT(drone.session.command(drone.now, forward(), received), HasSubstr("before the last"));
+  EXPECT_EQ(drone.command(forward()), "");
+}
+
+TEST(BlueyeSession, ClosingTheGateSendsZeroAndOpeningRevivesNothing) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.command(forward());
+  drone.session.setCommandsEnabled(drone.now, false);
+  drone.session.step(drone.now, drone);
+  EXPECT_TRUE(drone.isAtRest());
+  EXPECT_THAT(drone.command(forward()), HasSubstr("gate is closed"));
+  drone.run(5s);
+  drone.controls.clear();
+  drone.session.setCommandsEnabled(drone.now, true);
+  drone.run(3s);
+  EXPECT_THAT(drone.controlsOf("MotionInputCtrl"), IsEmpty());
+}
+
+TEST(BlueyeSession, LeavesWithZeroMotionAndGoodbye) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.command(forward());
+  drone.session.leave(drone.now, drone);
+  drone.session.step(drone.now, drone);
+  EXPECT_TRUE(drone.isAtRest());
+  EXPECT_FALSE(drone.session.hasLeft());
+  drone.run(50ms);
+  EXPECT_TRUE(drone.session.hasLeft());
+  EXPECT_THAT(drone.registry, IsEmpty());
+  drone.controls.clear();
+  EXPECT_EQ(drone.command(forward()), "the driver is stopping");
+  drone.run(900ms);
+  EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+  EXPECT_TRUE(drone.isAtRest());
+}
+
+TEST(BlueyeSession, LeavesAtOnceWhenItIsNotRegistered) {
+  ScriptedDrone drone;
+  drone.session.leave(drone.now, drone);
+  EXPECT_TRUE(drone.session.hasLeft());
+}
+
+TEST(BlueyeSession, SendsTheZeroAgainThatTheLinkDidNotTake) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.command(forward());
+  drone.link_takes = false;
+  drone.session.stop(drone.now, drone);
+  drone.run(100ms);
+  EXPECT_FALSE(drone.isAtRest());
+  drone.link_takes = true;
+  drone.run(25ms);
+  EXPECT_TRUE(drone.isAtRest());
+}
+
+TEST(BlueyeSession, PassesOnWhatItDoesNotKnowAndCountsWhatItCannotRead) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.session.telemetry(drone.now, "blueye.protocol.TeleportTel", "\x01\x02", drone);
+  EXPECT_EQ(drone.heard.back(), "TeleportTel");
+  EXPECT_EQ(drone.session.counters().malformed, 0u);
+  drone.session.telemetry(drone.now, "blueye.protocol.ConnectedClientsTel", "\xff\xff", drone);
+  EXPECT_EQ(drone.session.counters().malformed, 1u);
+  EXPECT_TRUE(drone.session.registered());
+}
+
+TEST(BlueyeSession, ReportsTheMissionInCommonWordsWhenItChanges) {
+  ScriptedDrone drone;
+  drone.connect();
+  for (const auto state :
+       {pb::MISSION_STATE_INACTIVE, pb::MISSION_STATE_READY, pb::MISSION_STATE_READY,
+        pb::MISSION_STATE_RUNNING, pb::MISSION_STATE_PAUSED, pb::MISSION_STATE_COMPLETED}) {
+    drone.tell(missionIn(state));
+  }
+  EXPECT_THAT(drone.mission, ElementsAre(State::Waiting, State::Ready, State::Running,
+                                         State::Stopped, State::Completed));
+}
+
+TEST(BlueyeSession, AsksForARateNowAndAfterEveryConnect) {
+  ScriptedDrone drone;
+  drone.refused_rates = {"NoSuchTel"};
+  drone.connect();
+  std::optional<BlueyeSession::Answer> answer;
+  const auto respond = [&](const auto& given) { answer = given; };
+  drone.session.setRate(drone.now, "DepthTel", 40.0, respond, drone);
+  drone.run(10ms);
+  ASSERT_TRUE(answer);
+  EXPECT_TRUE(answer->success);
+  drone.session.setRate(drone.now, "NoSuchTel", 10.0, respond, drone);
+  drone.run(10ms);
+  EXPECT_FALSE(answer->success);
+  drone.session.setRate(drone.now, "DepthTel", 101.0, respond, drone);
+  EXPECT_THAT(answer->message, HasSubstr("101"));
+  drone.loseLink();
+  drone.requests.clear();
+  drone.connect();
+  EXPECT_EQ(std::count_if(drone.requests.begin(), drone.requests.end(),
+                          [](const auto& one) { return one.type == "SetPubFrequencyReq"; }),
+            2);
+}
+
+TEST(BlueyeSession, ConfirmsAControlByTelemetryAndRepeatsItUntilThen) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  std::optional<std::string> answer;
+  const auto turnOn = [&] {
+    ConfirmedControls::Control control;
+    control.type = "blueye.protocol.AutoDepthCtrl";
+    control.repeat = true;
+    control.confirmed_by = "blueye.protocol.ControlModeTel";
+    control.shows = [](std::string_view payload) {
+      pb::ControlModeTel message;
+      message.ParseFromString(std::string{payload});
+      return message.state().auto_depth();
+    };
+    control.respond = [&](const std::string& refusal) { answer = refusal; };
+    drone.session.control(drone.now, std::move(control), drone);
+  };
+  turnOn();
+  drone.run(1100ms);
+  EXPECT_EQ(drone.controlsOf("AutoDepthCtrl").size(), 3u);
+  EXPECT_FALSE(answer);
+  pb::ControlModeTel mode;
+  drone.tell(mode);
+  EXPECT_FALSE(answer);
+  mode.mutable_state()->set_auto_depth(true);
+  drone.tell(mode);
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(*answer, "");
+  answer.reset();
+  turnOn();
+  drone.run(2100ms);
+  ASSERT_TRUE(answer);
+  EXPECT_THAT(*answer, HasSubstr("did not show it"));
+}
+
+struct RefusedControl {
+  const char* type;
+  const char* reason;
+};
+
+TEST(BlueyeSession, RefusesControlsThatHaveOwnersOrDestroy) {
+  const RefusedControl kRows[] = {{"MotionInputCtrl", "cmd_motion"},
+                                  {"WatchdogCtrl", "watchdog"},
+                                  {"TiltVelocityCtrl", "cmd_tilt"},
+                                  {"GripperCtrl", "cmd_gripper"},
+                                  {"FormatRemovableStorageDeviceCtrl", "allow_format"},
+                                  {"PingReq", "does not end in Ctrl"}};
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.controls.clear();
+  for (const RefusedControl& row : kRows) {
+    std::string answer;
+    ConfirmedControls::Control control;
+    control.type = std::string{"blueye.protocol."} + row.type;
+    control.respond = [&](const std::string& refusal) { answer = refusal; };
+    drone.session.control(drone.now, std::move(control), drone);
+    EXPECT_THAT(answer, HasSubstr(row.reason)) << row.type;
+  }
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, AnswersARequestWithItsReplyOrWhyThereIsNone) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.run(1s);
+  std::vector<std::string> answers;
+  const auto ask = [&](const char* type) {
+    drone.session.request(
+        drone.now, type, {}, 500ms,
+        [&](const BlueyeReply& reply) {
+          answers.push_back(reply.received ? std::string{reply.type} : reply.reason);
+        },
+        drone);
+  };
+  ask("blueye.protocol.GetBatteryReq");
+  drone.run(10ms);
+  drone.answers = false;
+  ask("blueye.protocol.GetMissionReq");
+  drone.run(600ms);
+  ask("blueye.protocol.LightsCtrl");
+  ask("blueye.protocol.FlashEscSettingsReq");
+  ask("blueye.protocol.PingReq");
+  drone.loseLink();
+  ASSERT_EQ(answers.size(), 5u);
+  EXPECT_EQ(answers[0], "google.protobuf.Empty");
+  EXPECT_EQ(answers[1], "no reply");
+  EXPECT_THAT(answers[2], HasSubstr("Req"));
+  EXPECT_THAT(answers[3], HasSubstr("allow_flash"));
+  EXPECT_THAT(answers[4], HasSubstr("connection was lost"));
+}
+
+TEST(BlueyeSession, ARecordIsOnlyListenedTo) {
+  BlueyeOptions options;
+  options.listen_only = true;
+  ScriptedDrone drone(options);
+  drone.connect();
+  drone.tell(clockAt(1000));
+  drone.tell(clockAt(1));
+  EXPECT_EQ(drone.command(forward()), "a record is being played");
+  drone.run(5s);
+  EXPECT_THAT(drone.requests, IsEmpty());
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_THAT(drone.reconnects, IsEmpty());
+  EXPECT_EQ(drone.heard.size(), 2u);
+}
+
+}  // namespace
+}  // namespace frontseat_driver::session
