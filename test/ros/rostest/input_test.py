@@ -4,15 +4,19 @@
 import io
 import os
 import random
+import threading
+import time
 import unittest
 
+import rospy
 from frontseat_driver.msg import LinkStatus, Sentence
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix, NavSatStatus, Range, TimeReference
+from std_srvs.srv import Trigger
 
 from driver_under_test import Collector, NodeDriver, Usage, parameters_for, run
-from fake_vehicle import FakeVehicle, navigation
+from fake_vehicle import FakeVehicle, navigation, sentence
 
 CAPTURE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "captures",
                        "heron_2014.nmea")
@@ -230,6 +234,56 @@ class EndlessLine(unittest.TestCase):
             connection.send(b"A" * MEBIBYTE)
         connection.send(b"\r\n", navigation("CP"))
         odometry.wait_for(count + 1, timeout_s=30.0)
+
+
+class HostileVehicle(unittest.TestCase):
+    """Any bytes, as fast as they can be sent: nothing grows, and nothing waits for it."""
+
+    FLOOD_S = 1.0
+    MOST_KIB = 32 * 1024  # queues of all topics, full
+
+    FLOODS = {
+        "noise": bytes(random.Random(1).randrange(256) for _ in range(1 << 16)),
+        "dollars": b"$" * (1 << 16),
+        "line ends": b"\r\n" * (1 << 15),
+        "wrong checksums": b"$CPNVG,1,2,3*00\r\n" * 4000,
+        "unknown sentences": sentence("CPZZZ,1,2,3") * 4000,
+        "positions": navigation("CP") * 700,
+    }
+
+    def test_cannot_crash_starve_or_fill_the_backseat(self):
+        vehicle = FakeVehicle(lambda: navigation("CP"))
+        self.addCleanup(vehicle.stop)
+        driver = NodeDriver("/hostile", parameters_for(vehicle))
+        self.addCleanup(driver.stop)
+        odometry = Collector("/hostile/odom", Odometry).wait_for_publisher()
+        connection = vehicle.wait_for_connection()
+        stop = rospy.ServiceProxy("/hostile/stop", Trigger)
+        stop.wait_for_service(10.0)
+        for name, flood in self.FLOODS.items():
+            self.flood(connection, flood)
+            before = Usage(driver.process.pid)
+            with self.subTest(flood=name):
+                self.flood(connection, flood, meanwhile=lambda: self.assertTrue(stop().success))
+                after = Usage(driver.process.pid)
+                self.assertLessEqual(after.memory_kib, before.memory_kib + self.MOST_KIB)
+                self.assertEqual(before.threads, after.threads)
+        connection.send(b"\r\n", navigation("CP", depth="3.125"))
+        odometry.wait_until(lambda message: message.pose.pose.position.z == -3.125, 30.0)
+        self.assertTrue(driver.process.runs())
+
+    def flood(self, connection, data, meanwhile=lambda: None):
+        flooding = threading.Thread(target=self.send_for, args=(connection, data, self.FLOOD_S))
+        flooding.start()
+        while flooding.is_alive():
+            meanwhile()
+            flooding.join(0.1)
+
+    @staticmethod
+    def send_for(connection, data, seconds):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            connection.send(data)
 
 
 if __name__ == "__main__":
