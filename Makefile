@@ -10,11 +10,12 @@ export BUILD_DIR
 JOBS ?= 2
 export JOBS
 
+HOURS ?= 1
 # For each fuzzer.
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build coverage fuzz sanitize netns-test lint clean
+.PHONY: help demo test build coverage fuzz sanitize netns-test soak lint clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -46,6 +47,11 @@ netns-test: ## real network faults between network namespaces; needs root
 	@scripts/install_dependencies build test netns
 	@scripts/build
 	@scripts/netns_test
+
+soak: ## HOURS=1 of a boat behind a link that breaks; memory, threads and sentences are counted
+	@scripts/install_dependencies build test soak
+	@scripts/build
+	@scripts/soak "$(HOURS)"
 
 sanitize: ## the test programs under address, undefined behavior and thread sanitizers
 	@scripts/install_dependencies build test
