@@ -1,0 +1,1 @@
+"""frontseat_monitor: a terminal screen for the person on deck."""

@@ -1,0 +1,1 @@
+"""nmea_plot: one page that shows a mission."""
