@@ -15,7 +15,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build coverage fuzz sanitize netns-test soak lint clean
+.PHONY: help demo test build pictures coverage fuzz sanitize netns-test soak lint clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -56,6 +56,9 @@ soak: ## HOURS=1 of a boat behind a link that breaks; memory, threads and senten
 sanitize: ## the test programs under address, undefined behavior and thread sanitizers
 	@scripts/install_dependencies build test
 	@scripts/sanitize
+
+pictures: build ## the README's plots and monitor, from demo missions of five minutes
+	@scripts/pictures
 
 lint: ## clang-format, catkin_lint and clang-tidy over everything
 	@scripts/install_dependencies build test lint

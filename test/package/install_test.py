@@ -11,7 +11,7 @@ import package_under_test as package
 
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
 PROGRAMS = ("nmea_node", "nmea_simulator", "nmea_decode", "kingfisher_square", "kingfisher_square.py",
-            "sandshark_survey.py")
+            "sandshark_survey.py", "frontseat_monitor", "nmea_plot")
 LAYERS = ("nmea", "vehicle", "link", "protocol", "capture", "session", "driver", "sim")
 
 
@@ -55,6 +55,13 @@ class Install(unittest.TestCase):
     def test_libraries(self):
         self.assert_installed("lib/lib%s_%s.a" % (package.NAME, layer) for layer in LAYERS)
         self.assert_installed(["lib/lib%s_nodelets.so" % package.NAME])
+
+    def test_python_modules(self):
+        modules = package.files("python/" + package.NAME, ".py")
+        self.assertTrue(modules)
+        for module in modules:
+            ending = "/" + os.path.relpath(module, "python")
+            self.assertTrue([path for path in self.installed if path.endswith(ending)], module)
 
     def test_programs(self):
         self.assert_installed("lib/%s/%s" % (package.NAME, name) for name in PROGRAMS)

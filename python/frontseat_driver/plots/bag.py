@@ -11,7 +11,7 @@ import rosbag
 from frontseat_driver.plots import capture
 from frontseat_driver.plots.columns import Columns
 from frontseat_driver.plots.errors import Unreadable
-from frontseat_driver.plots.mission import Mission, Series
+from frontseat_driver.plots.mission import GAP_S, Mission, Series
 
 UNKNOWN_VARIANCE = 1e5  # the driver says 1e6 where the vehicle told nothing
 SAME_CLOCK_S = 5.0
@@ -68,25 +68,27 @@ def attitude_deg(q):
 
 
 class Reader:
-    def __init__(self, bag, space):
+    def __init__(self, bag, space, topics):
         self.bag = bag
         self.odom = Columns()      # x, y, heading, roll, pitch, speed
         self.depth = Columns()
         self.altitude = Columns()
         self.batteries = {}
-        self.connected = Columns()
+        self.link = Columns()      # connected, sentences since the last one, s since a byte
         self.bad_checksums = Columns()
         self.malformed = Columns()
         self.counters = None
         self.arrivals = Columns()
         self.lags = []             # s, recorded minus stamped
-        self.heard = space + "nmea/rx"
+        # Every sentence is read only where the driver's own counters were not recorded: that is
+        # most of the bag.
+        self.heard = None if space + "link" in topics else space + "nmea/rx"
         self.takers = {space + "odom": self.take_odom, space + "depth": self.take_depth,
                        space + "altitude": self.take_altitude,
                        space + "battery": self.take_battery, space + "link": self.take_link}
 
     def read(self):
-        topics = [self.heard] + list(self.takers)
+        topics = list(self.takers) + ([self.heard] if self.heard else [])
         for topic, raw, recorded in self.bag.read_messages(topics=topics, raw=True):
             if topic == self.heard:
                 # Of the header alone: sequence, then when the driver heard it.
@@ -99,7 +101,9 @@ class Reader:
             except genpy.DeserializationError:
                 continue  # costs this message alone
             at = recorded.to_sec()
-            if topic.endswith(("/odom", "/depth", "/altitude", "/battery")):
+            if topic.endswith("/link"):
+                at = message.header.stamp.to_sec() or at  # on the driver's ROS clock
+            elif topic.endswith(("/odom", "/depth", "/altitude", "/battery")):
                 stamp = message.header.stamp.to_sec()
                 self.lags.append(at - stamp)
                 at = stamp
@@ -129,13 +133,16 @@ class Reader:
         self.batteries.setdefault(name, Columns()).add(at, battery.voltage)
 
     def take_link(self, at, link):
-        self.connected.add(at, link.connected)
-        now = (link.bad_checksums, link.malformed + link.oversized)
+        now = np.array([link.bad_checksums, link.malformed + link.oversized,
+                        link.sentences_received], dtype=float)
         before, self.counters = self.counters, now
-        if before is None or now < before:  # the driver started anew
-            before = (0, 0) if before else now
-        for column, more in zip((self.bad_checksums, self.malformed),
-                                (now[0] - before[0], now[1] - before[1])):
+        if before is None:
+            before = now
+        elif now[2] < before[2]:  # the driver started anew
+            before = np.zeros(3)
+        bad, malformed, heard = now - before
+        self.link.add(at, link.connected, heard, link.since_received.to_sec())
+        for column, more in ((self.bad_checksums, bad), (self.malformed, malformed)):
             if more > 0:
                 column.add(at, more)
 
@@ -157,7 +164,7 @@ def read(path, wanted=None):
         topics = bag.get_type_and_topic_info().topics
         if space + "odom" not in topics and space + "nmea/rx" in topics:
             return capture.read(path, space.rstrip("/") or "/")
-        reader = Reader(bag, space).read()
+        reader = Reader(bag, space, topics).read()
         mission = Mission(os.path.basename(path) + ("" if space == "/" else " " + space[:-1]))
         fill(mission, reader)
     return mission
@@ -177,8 +184,19 @@ def fill(mission, reader):
     mission.altitude_m = reader.altitude.series(offset_s)
     mission.battery_v = {name: column.series(offset_s)
                          for name, column in reader.batteries.items()}
-    mission.arrivals = reader.arrivals.series()
-    mission.faults_known = reader.counters is not None
-    mission.connected = reader.connected.series()
+    if reader.counters is not None:
+        mission.faults_known = True
+        hear_by_link(mission, reader.link.series())
+    else:
+        mission.hear(reader.arrivals.series().t)
     mission.bad_checksums = reader.bad_checksums.series()
     mission.malformed = reader.malformed.series()
+
+
+def hear_by_link(mission, link):
+    connected, heard, silent_s = link.values
+    mission.connected = Series(link.t, connected)
+    mission.count(link.t, np.cumsum(heard))
+    # The last report of each silence tells its length.
+    ends = np.flatnonzero((silent_s > GAP_S) & (np.append(silent_s[1:], 0.0) <= silent_s))
+    mission.gaps = np.column_stack([link.t[ends] - silent_s[ends], link.t[ends]])

@@ -120,7 +120,7 @@ class Reader:
             return  # before the first time that is told
         self.arrivals.add(at)
         if "fault" in line:
-            wrong_sum = "checksum" in line["fault"]["reason"] and not fields
+            wrong_sum = line["fault"]["reason"].startswith("wrong checksum")
             (self.bad_checksums if wrong_sum else self.malformed).add(at, 1)
         taker = self._takers.get(line["sentence"][2:])
         if taker and fields:
@@ -166,7 +166,7 @@ class Reader:
             mission.roll_deg, mission.pitch_deg = Series(table.t, roll), Series(table.t, pitch)
         mission.speed_m_s = self.speed.series()
         mission.battery_v = {name: column.series() for name, column in self.batteries.items()}
-        mission.arrivals = self.arrivals.series()
+        mission.hear(self.arrivals.series().t)
         mission.bad_checksums = self.bad_checksums.series()
         mission.malformed = self.malformed.series()
         return mission

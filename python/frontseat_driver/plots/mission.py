@@ -5,6 +5,7 @@ import datetime
 import numpy as np
 
 GAP_S = 2.0  # the driver's max_data_age: a longer silence leaves its data stale
+MOST_RATES = 3600  # stretches of a long recording
 
 
 class Series:
@@ -43,7 +44,9 @@ class Mission:
         self.roll_deg = Series()     # positive port side up
         self.pitch_deg = Series()    # positive bow up
         self.battery_v = {}          # by the battery's name
-        self.arrivals = Series()     # of each sentence; no values
+        self.rate_hz = Series()      # sentences received, since the time before
+        self.sentences = 0           # how many altogether
+        self.gaps = np.empty((0, 2))  # start and end of every silence longer than GAP_S
         self.bad_checksums = Series()   # how many, at the time they were noticed
         self.malformed = Series()
         self.faults_known = False    # whether anybody counted the last two
@@ -52,7 +55,7 @@ class Mission:
 
     def every_series(self):
         return [self.position, self.depth_m, self.altitude_m, self.speed_m_s, self.heading_deg,
-                self.roll_deg, self.pitch_deg, self.arrivals, self.bad_checksums, self.malformed,
+                self.roll_deg, self.pitch_deg, self.rate_hz, self.bad_checksums, self.malformed,
                 self.connected] + list(self.battery_v.values())
 
     def span_s(self):
@@ -62,11 +65,22 @@ class Mission:
             return None
         return min(first for first, _ in times), max(last for _, last in times)
 
-    def gaps(self):
-        """Start and end of every silence longer than GAP_S, as an array of two columns."""
-        t = self.arrivals.t
+    def hear(self, t):
+        """Takes the time of each sentence, in order."""
+        if not len(t):
+            return
         ends = np.flatnonzero(np.diff(t) > GAP_S)
-        return np.column_stack([t[ends], t[ends + 1]]) if len(ends) else np.empty((0, 2))
+        self.gaps = np.column_stack([t[ends], t[ends + 1]])
+        edges = stretches(t[0], t[-1])
+        self.sentences = len(t)
+        self.rate_hz = Series(edges[1:], np.histogram(t, edges)[0] / np.diff(edges))
+
+    def count(self, t, counts):
+        """Takes how many sentences had been received at each time. Told about once a second, but
+        also twice within a moment: hence even stretches."""
+        edges = stretches(t[0], t[-1])
+        self.sentences = int(counts[-1] - counts[0])
+        self.rate_hz = Series(edges[1:], np.diff(np.interp(edges, t, counts)) / np.diff(edges))
 
     def disconnected(self):
         """Start and end of every time without a connection."""
@@ -82,6 +96,12 @@ class Mission:
     def distance_m(self):
         x, y = self.position.values
         return float(np.sum(np.hypot(np.diff(x), np.diff(y))))
+
+
+def stretches(start_s, end_s):
+    """The edges of a second each, or of longer ones of a long recording."""
+    count = int(min(max(end_s - start_s, 1.0), MOST_RATES))
+    return np.linspace(start_s, max(end_s, start_s + 1.0), count + 1)
 
 
 def clock_text(seconds, relative):
@@ -124,10 +144,10 @@ def summary(mission):
 
 
 def link_summary(mission):
-    gaps = mission.gaps()
+    gaps = mission.gaps
     rows = []
-    if len(mission.arrivals):
-        rows += [("sentences received", "%d" % len(mission.arrivals)),
+    if mission.rate_hz:
+        rows += [("sentences received", "%d" % mission.sentences),
                  ("silences over %g s" % GAP_S, "%d" % len(gaps))]
     if mission.faults_known:
         rows += [("bad checksums", "%d" % np.sum(mission.bad_checksums.v)),

@@ -5,10 +5,11 @@ import io
 import os
 import re
 
+import matplotlib
+
 from frontseat_driver.plots import page
 from frontseat_driver.plots.mission import summary
 
-ENDINGS = (".png", ".svg", ".html")
 DOTS_PER_INCH = 100
 # No date inside: the same recording gives the same file.
 NO_DATE = {"Date": None}
@@ -37,6 +38,11 @@ th {{ font-weight: normal; color: #555; }}
 
 
 def write(mission, path):
+    with matplotlib.rc_context(page.STYLE):
+        write_styled(mission, path)
+
+
+def write_styled(mission, path):
     figure = page.figure_of(mission)
     ending = os.path.splitext(path)[1].lower()
     if ending == ".png":

@@ -18,6 +18,7 @@ SIZE_IN = (14.0, 9.0)
 BINS = 1200           # a panel has about half as many pixels across
 HOLE_S = 10.0         # a line is not drawn over a longer hole
 TIME_MARKS = 6        # on the track, about
+NEAR_SHARE = 0.07     # of the track: closer marks share a label
 MARK_STEPS_S = (5, 10, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 28800)
 TIME_UNITS = ((7200.0, 3600.0, "h"), (180.0, 60.0, "min"), (0.0, 1.0, "s"))
 
@@ -80,22 +81,54 @@ def draw_track(axes, mission, clock):
     axes.plot(*thin.broken_at(x[pick], y[pick], holes_of(t, pick)), color=BLUE)
     axes.margins(0.12)
     place = (t, x, y)
+    point_ahead(axes, place, clock)
     mark_times(axes, place, clock)
-    axes.plot(x[0], y[0], "o", color=GREEN, markersize=11, label="start", zorder=4)
-    axes.plot(x[-1], y[-1], "s", color=RED, markersize=10, label="end", zorder=4)
+    axes.plot(x[0], y[0], "o", color=GREEN, markersize=11, label="start", zorder=6)
+    axes.plot(x[-1], y[-1], "s", color=RED, markersize=10, label="end", zorder=6)
     axes.legend(loc="upper right", ncol=2)
+
+
+def place_at(t, wanted_s):
+    """Index of the first position from then on; None where there is none near."""
+    at = np.searchsorted(t, wanted_s)
+    return at if at < len(t) and t[at] - wanted_s <= HOLE_S else None
+
+
+def point_ahead(axes, place, clock):
+    """Arrows between the time marks: which way it went."""
+    t, x, y = place
+    half_s = np.diff(clock.marks_s()[:2], prepend=0.0)[-1] / 2.0 if len(clock.marks_s()) else 0.0
+    for mark_s in clock.marks_s():
+        at = place_at(t, clock.start_s + mark_s - half_s)
+        if at is None:
+            continue
+        away = np.hypot(x[at:] - x[at], y[at:] - y[at])
+        ahead = at + int(np.argmax(away > 0.01 * np.ptp(np.hypot(x, y)) + 0.5))
+        if ahead > at:
+            axes.annotate("", (x[ahead], y[ahead]), (x[at], y[at]),
+                          arrowprops={"arrowstyle": "-|>", "color": BLUE, "mutation_scale": 16})
 
 
 def mark_times(axes, place, clock):
     t, x, y = place
+    near_m = NEAR_SHARE * max(np.ptp(x), np.ptp(y))
+    marks = []  # index, and the times there: a vehicle in circles comes by again
     for mark_s in clock.marks_s():
-        at = np.searchsorted(t, clock.start_s + mark_s)
-        if at >= len(t) or t[at] - clock.start_s - mark_s > HOLE_S:
+        at = place_at(t, clock.start_s + mark_s)
+        if at is None:
             continue
         axes.plot(x[at], y[at], "o", color="white", markeredgecolor=INK, markersize=5, zorder=3)
-        axes.annotate("%g %s" % (mark_s / clock.unit_s, clock.unit), (x[at], y[at]),
-                      xytext=(6, 4), textcoords="offset points", fontsize=8.5, color=INK,
-                      zorder=5)
+        time = "%g" % (mark_s / clock.unit_s)
+        near = [times for other, times in marks
+                if np.hypot(x[at] - x[other], y[at] - y[other]) < near_m]
+        if near:
+            near[0].append(time)
+        else:
+            marks.append((at, [time]))
+    for at, times in marks:
+        axes.annotate("%s %s" % (", ".join(times), clock.unit), (x[at], y[at]), xytext=(6, 5),
+                      textcoords="offset points", fontsize=8.5, color=INK, zorder=5,
+                      bbox={"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8})
 
 
 def draw_depth(axes, mission, clock):
@@ -155,27 +188,20 @@ def draw_battery(axes, mission, clock):
 
 
 def draw_link(axes, mission, clock):
-    if len(mission.arrivals):
-        draw_rate(axes, mission, clock)
+    if mission.rate_hz:
+        pick = thin.kept([mission.rate_hz.v], BINS // 2)
+        axes.step(clock(mission.rate_hz.t[pick]), mission.rate_hz.v[pick], where="pre", color=BLUE,
+                  linewidth=1.0, label="received")
     top = axes.get_ylim()[1] * 1.25
     axes.set_ylim(0.0, top)
     for start_s, end_s in mission.disconnected():
         axes.axvspan(clock(start_s), clock(end_s), color=RED, alpha=0.35, linewidth=0,
                      label="no connection")
-    for start_s, end_s in mission.gaps():
+    for start_s, end_s in mission.gaps:
         axes.axvspan(clock(start_s), clock(end_s), facecolor="none", edgecolor=PALE, hatch="////",
                      linewidth=0, label="silent for over %g s" % GAP_S)
     draw_faults(axes, mission, clock, top)
     label_once(axes, mission)
-
-
-def draw_rate(axes, mission, clock):
-    length_s = clock.end_s - clock.start_s
-    bins = int(min(max(length_s, 1.0), BINS / 2))
-    counts, edges = np.histogram(mission.arrivals.t, bins, (clock.start_s, clock.end_s))
-    rate = counts * bins / max(length_s, 1e-9)
-    axes.step(clock(edges), np.append(rate, rate[-1]), where="post", color=BLUE, linewidth=1.0,
-              label="received")
 
 
 def draw_faults(axes, mission, clock, top):
@@ -197,7 +223,7 @@ def label_once(axes, mission):
 def good_words(mission):
     words = ["connected throughout"] if len(mission.connected) else []
     words += ["no bad checksum, nothing malformed"] if mission.faults_known else []
-    return ", ".join(words + (["no silence"] if len(mission.arrivals) else []))
+    return ", ".join(words + (["no silence"] if mission.rate_hz else []))
 
 
 def legend(axes, *handles):
@@ -222,7 +248,7 @@ PANELS = (
           "no roll and no pitch in this recording"),
     Panel("battery, V", 0.8, draw_battery, lambda m: any(m.battery_v.values()),
           "no battery voltage in this recording"),
-    Panel("sentences/s", 1.1, draw_link, lambda m: len(m.arrivals) or len(m.connected),
+    Panel("sentences/s", 1.1, draw_link, lambda m: m.rate_hz or m.connected,
           "no sentences and no link state in this recording"))
 EMPTY_HEIGHT = 0.3
 

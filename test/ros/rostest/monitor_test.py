@@ -9,6 +9,8 @@ import sys
 import time
 import unittest
 
+import rosgraph
+
 from driver_under_test import NodeDriver, Process, Simulator, parameters_for, program, run
 from fake_vehicle import wait_until
 from terminal import PATIENCE_S, Terminal
@@ -18,8 +20,8 @@ MONITOR = program("frontseat_driver", "frontseat_monitor")
 LIVE = ("CONNECTED", "sandshark", "GRANTED", "RUNNING", "BFNVG", "BPSTS", "DONE", " m  north ",
         "heading", "q quits")
 COLOR = re.compile(r"\x1b\[[0-9;]*3[0-7]m")
-MASTER = """import rosmaster.master, time
-master = rosmaster.master.Master(0)
+MASTER = """import rosmaster.master, sys, time
+master = rosmaster.master.Master(int(sys.argv[1]))
 master.start()
 print(master.uri, flush=True)
 while True: time.sleep(60)
@@ -107,17 +109,30 @@ class Monitor(unittest.TestCase):
         self.terminal(MONITOR + " /nowhere").wait_for("no driver heard in namespace /nowhere",
                                                       "there is one in:", NAMESPACE)
 
-    def test_a_master_that_dies_is_told(self):
-        master = Process([sys.executable, "-c", MASTER])
-        self.addCleanup(master.stop)
-        uri = wait_until(lambda: [line for line in master.output if line.startswith("http")],
-                         "the master", PATIENCE_S)[0]
+    def master(self, port=0):
+        """A process, and where it listens."""
+        process = Process([sys.executable, "-c", MASTER, str(port)])
+        self.addCleanup(process.stop)
+        lines = wait_until(lambda: [line for line in process.output if line.startswith("http")],
+                           "the master", PATIENCE_S)
+        return process, lines[0]
+
+    def test_a_master_that_dies_is_told_and_a_new_one_is_joined(self):
+        master, uri = self.master()
         terminal = self.terminal(ROS_MASTER_URI=uri)
         terminal.wait_for("no driver heard")
         wait_until(lambda: "waiting for the ROS master" not in terminal.screen(), "the master",
                    PATIENCE_S)
         master.send_signal(signal.SIGKILL)
+        master.wait()
         terminal.wait_for("NO ROS MASTER at", "is roscore running?")
+        self.master(int(uri.rstrip("/").rsplit(":", 1)[1]))
+
+        def is_subscribed():
+            _, subscribers, _ = rosgraph.Master("/test", uri).getSystemState()
+            return NAMESPACE + "/link" in dict(subscribers)
+        wait_until(is_subscribed, "the monitor to join the new master", PATIENCE_S)
+        wait_until(lambda: "NO ROS MASTER" not in terminal.screen(), "good news", PATIENCE_S)
         terminal.type("q")
         self.ends_clean(terminal, 0)
 

@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+"""nmea_plot from the command line: what it makes of good and bad input."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+
+import roslib.packages
+import rosbag
+import rospy
+import rosunit
+from nav_msgs.msg import Odometry
+
+PLOT = roslib.packages.find_node("frontseat_driver", "nmea_plot")[0]
+
+# Name, arguments, exit code, and what the one line must say.
+REFUSED = (
+    ("no_input", ["missing.bag", "out.png"], 1, "cannot read missing.bag: No such file"),
+    ("wrong_ending", ["dive.bag", "out.pdf"], 2, "out.pdf\": the name must end with .png, .svg"),
+    ("no_ending", ["dive.bag", "out"], 2, "the name must end with"),
+    ("broken_bag", ["broken.bag", "out.png"], 1, "broken.bag"),
+    ("no_folder", ["dive.bag", "nowhere/out.png"], 1, "nowhere/out.png"),
+    ("no_such_vehicle", ["dive.bag", "out.png", "--namespace", "/x"], 1,
+     "no vehicle in namespace /x; there is: /"),
+)
+
+
+class Program(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls._folder = tempfile.TemporaryDirectory()
+        cls.folder = cls._folder.name
+        with rosbag.Bag(os.path.join(cls.folder, "dive.bag"), "w") as bag:
+            for tick in range(100):
+                message = Odometry()
+                message.header.stamp = rospy.Time(1000 + tick)
+                message.pose.pose.position.x = tick
+                bag.write("/odom", message, message.header.stamp)
+        with open(os.path.join(cls.folder, "broken.bag"), "wb") as file:
+            file.write(b"#ROSBAG V2.0\nrubbish")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls._folder.cleanup()
+
+    def plot(self, *arguments):
+        done = subprocess.run([PLOT] + list(arguments), cwd=self.folder, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, check=False)
+        return done.returncode, done.stderr.decode()
+
+    def made(self, name):
+        with open(os.path.join(self.folder, name), "rb") as file:
+            return file.read()
+
+    def test_a_bag(self):
+        self.assertEqual((0, ""), self.plot("dive.bag", "out.svg", "--title", "My dive",
+                                            "__name:=plot"))
+        self.assertIn(b"<svg", self.made("out.svg"))
+
+
+def refused(arguments, code, words):
+    def test(self):
+        returned, said = self.plot(*arguments)
+        self.assertEqual(code, returned, said)
+        self.assertIn(words, said)
+        self.assertNotIn("Traceback", said)
+        self.assertFalse(os.path.exists(os.path.join(self.folder, "out.png")))
+    return test
+
+
+for name, *row in REFUSED:
+    setattr(Program, "test_refuses_" + name, refused(*row))
+
+if __name__ == "__main__":
+    rosunit.unitrun("frontseat_driver", "plot_program", Program)
