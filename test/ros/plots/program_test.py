@@ -12,6 +12,8 @@ import rospy
 import rosunit
 from nav_msgs.msg import Odometry
 
+HERE = os.path.dirname(os.path.abspath(__file__))
+CAPTURE = os.path.join(HERE, "..", "..", "captures", "heron_2014.nmea")
 PLOT = roslib.packages.find_node("frontseat_driver", "nmea_plot")[0]
 
 # Name, arguments, exit code, and what the one line must say.
@@ -57,6 +59,12 @@ class Program(unittest.TestCase):
         self.assertEqual((0, ""), self.plot("dive.bag", "out.svg", "--title", "My dive",
                                             "__name:=plot"))
         self.assertIn(b"<svg", self.made("out.svg"))
+
+    def test_a_capture(self):
+        self.assertEqual((0, ""), self.plot(CAPTURE, "heron.html"))
+        page = self.made("heron.html").decode("utf-8")
+        for words in ("<h1>heron_2014.nmea</h1>", "<th>fastest</th>", "<th>battery</th>"):
+            self.assertIn(words, page)
 
 
 def refused(arguments, code, words):
