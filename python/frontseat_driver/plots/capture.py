@@ -181,10 +181,8 @@ def track(t, latitude, longitude):
     return Series(t[known][keep], east[keep], north[keep])
 
 
-def read(path, vehicle=None):
-    if not os.path.exists(path):
-        raise Unreadable("there is no file %s" % path)
+def read(path, vehicle=None, title=None):
     reader = Reader()
     for line in decoded(path, vehicle):
         reader.take(line)
-    return reader.mission(os.path.basename(path))
+    return reader.mission(title or os.path.basename(path))

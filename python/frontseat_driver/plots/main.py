@@ -17,7 +17,8 @@ pitch, battery and the health of the link."""
 def arguments(argv):
     parser = argparse.ArgumentParser(prog="nmea_plot", description=DESCRIPTION)
     parser.add_argument("input", help="a bag with the driver's topics or with nmea/rx alone, or a "
-                                      "capture of sentences as text")
+                                      "capture of sentences that nmea_decode reads; -: standard "
+                                      "input")
     parser.add_argument("output", help="what to write; its name ends with %s"
                                        % ", ".join(ENDINGS))
     parser.add_argument("--namespace", help="which vehicle, where a bag holds several")
@@ -36,6 +37,8 @@ def arguments(argv):
 def read(chosen):
     from frontseat_driver.plots import bag, capture
     try:
+        if chosen.input == "-":
+            return capture.read("-", title="standard input")
         if bag.is_bag(chosen.input):
             return bag.read(chosen.input, chosen.namespace)
         return capture.read(chosen.input)

@@ -17,6 +17,7 @@ INK, PALE = "#222222", "#888888"
 SIZE_IN = (14.0, 9.0)
 BINS = 1200           # a panel has about half as many pixels across
 HOLE_S = 10.0         # a line is not drawn over a longer hole
+FEW = 60
 TIME_MARKS = 6        # on the track, about
 NEAR_SHARE = 0.07     # of the track: closer marks share a label
 MARK_STEPS_S = (5, 10, 30, 60, 120, 300, 600, 1200, 1800, 3600, 7200, 14400, 28800)
@@ -59,6 +60,8 @@ def without_data(axes, words):
 def line(axes, clock, series, **style):
     pick = thin.kept([series.v], BINS)
     holes = holes_of(series.t, pick)
+    if len(pick) <= FEW:  # single points make no line
+        style = dict(style, marker="o", markersize=3)
     return axes.plot(*thin.broken_at(clock(series.t[pick]), series.v[pick], holes), **style)
 
 
@@ -162,7 +165,7 @@ def draw_heading(axes, mission, clock):
     t, v = mission.heading_deg.t, mission.heading_deg.v
     pick = thin.kept([v], BINS)
     # Dots: a heading that goes through north is no line across the panel.
-    axes.plot(clock(t[pick]), v[pick], ".", color=BLUE, markersize=2.5)
+    axes.plot(clock(t[pick]), v[pick], ".", color=BLUE, markersize=6 if len(pick) <= FEW else 2.5)
     axes.set_ylim(-10.0, 370.0)
     axes.set_yticks([0, 90, 180, 270, 360])
     axes.set_yticklabels(["0 N", "90 E", "180 S", "270 W", "360 N"], fontsize=8.0)
@@ -279,7 +282,8 @@ def drawn(mission, clock):
         axes = figure.add_subplot(grid[row, 1], sharex=axes)
         draw_panel(axes, panel, mission, clock)
         axes.tick_params(labelbottom=row == len(PANELS) - 1)
-    axes.set_xlim(0.0, max(float(clock(clock.end_s)), 1e-6))
+    length = max(float(clock(clock.end_s)), 1e-6)
+    axes.set_xlim(-0.008 * length, 1.008 * length)  # so that what is at the edge is seen whole
     axes.set_xlabel("time since the start, %s" % clock.unit)
     write_head(figure, mission)
     return figure

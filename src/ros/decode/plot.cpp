@@ -29,7 +29,9 @@ void runPlot(const Options& options) {
   std::string program = ownFolder() + "nmea_plot";
   std::string input = options.input;
   std::string picture = options.plot;
-  char* const arguments[] = {program.data(), input.data(), picture.data(), nullptr};
+  std::string vehicle = "--namespace=" + options.vehicle;
+  char* const last = options.vehicle.empty() ? nullptr : vehicle.data();
+  char* const arguments[] = {program.data(), input.data(), picture.data(), last, nullptr};
   execv(program.c_str(), arguments);
   fail(program);
 }

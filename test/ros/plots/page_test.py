@@ -102,6 +102,12 @@ class Page(unittest.TestCase):
             self.assertTrue(axes.lines or axes.texts)
         self.assertIn("m: nothing to show in this recording", words(page.figure_of(Mission("m"))))
 
+    def test_single_values_are_seen(self):
+        mission = mission_of()
+        mission.speed_m_s = Series([START, START + 500.0], [1.0, 2.0])
+        axes = [axes for axes in page.figure_of(mission).axes if axes.get_ylabel() == "speed, m/s"]
+        self.assertEqual("o", axes[0].lines[0].get_marker())
+
     def test_faults_silences_and_lost_connections_are_shown(self):
         mission = mission_of()
         mission.bad_checksums = Series([START + 60.0, START + 70.0], [2, 1])

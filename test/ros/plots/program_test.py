@@ -15,6 +15,7 @@ from nav_msgs.msg import Odometry
 HERE = os.path.dirname(os.path.abspath(__file__))
 CAPTURE = os.path.join(HERE, "..", "..", "captures", "heron_2014.nmea")
 PLOT = roslib.packages.find_node("frontseat_driver", "nmea_plot")[0]
+DECODE = roslib.packages.find_node("frontseat_driver", "nmea_decode")[0]
 
 # Name, arguments, exit code, and what the one line must say.
 REFUSED = (
@@ -46,9 +47,9 @@ class Program(unittest.TestCase):
     def tearDownClass(cls):
         cls._folder.cleanup()
 
-    def plot(self, *arguments):
-        done = subprocess.run([PLOT] + list(arguments), cwd=self.folder, stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, check=False)
+    def plot(self, *arguments, program=PLOT, stdin=b""):
+        done = subprocess.run([program] + list(arguments), cwd=self.folder, input=stdin,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=False)
         return done.returncode, done.stderr.decode()
 
     def made(self, name):
@@ -65,6 +66,16 @@ class Program(unittest.TestCase):
         page = self.made("heron.html").decode("utf-8")
         for words in ("<h1>heron_2014.nmea</h1>", "<th>fastest</th>", "<th>battery</th>"):
             self.assertIn(words, page)
+
+    def test_standard_input(self):
+        with open(CAPTURE, "rb") as file:
+            self.assertEqual((0, ""), self.plot("-", "piped.html", stdin=file.read()))
+        self.assertIn(b"<h1>standard input</h1>", self.made("piped.html"))
+
+    def test_by_way_of_nmea_decode(self):
+        self.assertEqual((0, ""), self.plot("--plot", "decoded.svg", "--vehicle", "/", "dive.bag",
+                                            program=DECODE))
+        self.assertIn(b"<svg", self.made("decoded.svg"))
 
 
 def refused(arguments, code, words):
