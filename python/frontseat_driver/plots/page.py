@@ -6,6 +6,7 @@ matplotlib.use("Agg")  # no display is needed
 
 import matplotlib.pyplot as pyplot  # noqa: E402
 import numpy as np  # noqa: E402
+from matplotlib import patheffects  # noqa: E402
 
 from frontseat_driver.plots import thin  # noqa: E402
 from frontseat_driver.plots.mission import GAP_S, summary  # noqa: E402
@@ -46,7 +47,7 @@ class Clock:
         length_s = self.end_s - self.start_s
         step_s = next((step for step in MARK_STEPS_S if length_s / step <= TIME_MARKS),
                       MARK_STEPS_S[-1])
-        return step_s * np.arange(1, int(length_s / step_s) + 1)
+        return step_s * np.arange(1, int(length_s / step_s + 0.9))  # none upon the end
 
 
 def without_data(axes, words):
@@ -130,8 +131,8 @@ def mark_times(axes, place, clock):
             marks.append((at, [time]))
     for at, times in marks:
         axes.annotate("%s %s" % (", ".join(times), clock.unit), (x[at], y[at]), xytext=(6, 5),
-                      textcoords="offset points", fontsize=8.5, color=INK, zorder=5,
-                      bbox={"facecolor": "white", "alpha": 0.7, "linewidth": 0, "pad": 0.8})
+                      textcoords="offset points", fontsize=8.5, color=INK, zorder=7,
+                      path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")])
 
 
 def draw_depth(axes, mission, clock):
