@@ -8,6 +8,7 @@ namespace frontseat_driver::capture {
 namespace {
 
 constexpr std::size_t kLargest = 1 << 20;  // of a packet or block; interfaces give 256 KB at most
+constexpr std::size_t kChunk = 64 * 1024;
 constexpr std::size_t kMostInterfaces = 256;
 constexpr std::string_view kSection{"\x0A\x0D\x0D\x0A"};
 
@@ -72,7 +73,7 @@ std::optional<Split> split(std::uint64_t count, std::uint8_t resolution) {
 }  // namespace
 
 PacketFile::PacketFile(std::unique_ptr<ByteSource> source)
-    : source_(std::move(source)), buffer_(kLargest + 64 * 1024) {
+    : source_(std::move(source)), buffer_(kChunk) {
   readHeader();
 }
 
@@ -91,6 +92,7 @@ bool PacketFile::require(std::size_t size) {
   std::memmove(buffer_.data(), buffer_.data() + at_, filled_ - at_);
   filled_ -= at_;
   at_ = 0;
+  if (size > buffer_.size()) buffer_.resize(size);
   while (filled_ < size && !ended_) {
     const std::size_t count = source_->read(buffer_.data() + filled_, buffer_.size() - filled_);
     ended_ = count == 0;
