@@ -15,7 +15,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build pictures coverage fuzz sanitize netns-test soak lint clean
+.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak lint clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -29,6 +29,11 @@ test: ## builds with warnings as errors and runs all tests; closes with "N passe
 	@scripts/install_dependencies build test
 	@TARGETS="all tests" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_WARNINGS_AS_ERRORS=ON
 	@scripts/run_tests
+
+replay-test: ## records ten-minute missions in real time and replays them at 1x, 10x and unlimited rate
+	@scripts/install_dependencies build test
+	@scripts/build
+	@scripts/replay_test
 
 build: ## the package, ready to be sourced from build/devel/setup.bash
 	@scripts/install_dependencies build test

@@ -262,7 +262,8 @@ void Frontseat::replaceEmptyBattery() {
 
 UtcTime Frontseat::clock(UtcTime utc) const {
   const double drift_s = config_.clock_drift_ppm * 1e-6 * inSeconds(utc - config_.start_time);
-  return std::chrono::round<milliseconds>(utc + seconds(config_.clock_offset_s + drift_s));
+  return std::chrono::round<milliseconds>(utc + clock_steps_ +
+                                          seconds(config_.clock_offset_s + drift_s));
 }
 
 nmea::TimeOfDay Frontseat::stamp(UtcTime utc) const {

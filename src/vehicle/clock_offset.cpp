@@ -54,8 +54,9 @@ UtcTime ClockOffset::unwrapped(TimeOfDay time, UtcTime arrival) const {
   return resolveDate(time, arrival - last_offset_.value_or(nanoseconds::zero()));
 }
 
-// After a step the samples lie close to each other at their new place. What a network has held back
-// comes in a rush, each less late than the one before.
+// After a step the samples lie close to each other at their new place, one after another. What a
+// network has held back comes in a rush, each less late than the one before, and a rush may follow
+// on another without an early one in between.
 bool ClockOffset::lateForLong(nanoseconds late, nanoseconds offset, UtcTime arrival) {
   if (late <= kStep) {
     late_since_.reset();
@@ -66,11 +67,15 @@ bool ClockOffset::lateForLong(nanoseconds late, nanoseconds offset, UtcTime arri
     late_samples_ = 0;
     least_late_offset_ = nanoseconds::max();
   }
-  if (offset < least_late_offset_ - kTogether) together_ = 0;
+  if (offset < least_late_offset_ - kTogether) {
+    together_ = 0;
+    together_since_ = arrival;
+  }
   least_late_offset_ = std::min(least_late_offset_, offset);
   ++late_samples_;
-  together_ += offset < least_late_offset_ + kTogether ? 1 : 0;
-  return arrival - *late_since_ >= kStepPatience && 2 * together_ > late_samples_;
+  if (offset >= least_late_offset_ + kTogether) return false;
+  ++together_;
+  return arrival - together_since_ >= kStepPatience && 2 * together_ > late_samples_;
 }
 
 void ClockOffset::startAgain(nanoseconds offset, UtcTime arrival) {

@@ -82,6 +82,9 @@ class Frontseat {
   /// Lets the vehicle live up to `now` in fixed steps of tick(), then hands on all that was said.
   void step(UtcTime now, Sink& sink);
 
+  /// Sets the vehicle's clock forward by this much, as its operator or its GPS may.
+  void stepClock(std::chrono::nanoseconds by) { clock_steps_ += by; }
+
   std::chrono::nanoseconds tick() const { return tick_; }
   UtcTime now() const { return now_; }
   virtual const VehicleModel& model() const = 0;
@@ -161,6 +164,7 @@ class Frontseat {
   const FrontseatConfig config_;
   const std::vector<Rate>& default_rates_;
   const std::chrono::seconds clock_ahead_of_utc_;
+  std::chrono::nanoseconds clock_steps_{0};
   const bool rewrites_;
   std::chrono::nanoseconds tick_;
   UtcTime now_;

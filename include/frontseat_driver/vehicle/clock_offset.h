@@ -81,6 +81,7 @@ class ClockOffset {
   std::chrono::nanoseconds least_late_offset_{};
   std::uint64_t late_samples_ = 0;
   std::uint64_t together_ = 0;  ///< those near the least
+  UtcTime together_since_{};
 };
 
 }  // namespace frontseat_driver::vehicle

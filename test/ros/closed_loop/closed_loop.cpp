@@ -238,6 +238,7 @@ void ClosedLoop::heard(const vehicle::Now&, std::string_view line) {
 void ClosedLoop::navigation(const sim::Truth& truth) {
   truths_[truth.stamp] = truth;
   if (truths_.size() > 1000) truths_.erase(truths_.begin());
+  if (watch.truth) watch.truth(truth);
 }
 
 void ClosedLoop::event(const vehicle::Now& now, const vehicle::Event& event) {

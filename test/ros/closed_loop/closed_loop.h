@@ -145,11 +145,13 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   const std::string& reason() const { return reason_; }             ///< as `control` has it
   bool commanding() const { return commanding_; }
 
-  /// Called, if set, with each odometry and the truth at its stamp, each IMU message, each event,
-  /// each sentence that was sent, each line that was heard, and after every step.
+  /// Called, if set, with each odometry and the truth at its stamp, each IMU message, the truth at
+  /// each navigation instant, each event, each sentence that was sent, each line that was heard,
+  /// and after every step.
   struct Watch {
     std::function<void(const nav_msgs::Odometry&, const sim::Truth&)> odometry;
     std::function<void(const sensor_msgs::Imu&)> imu;
+    std::function<void(const sim::Truth&)> truth;
     std::function<void(const vehicle::Now&, const vehicle::Event&)> event;
     std::function<void(const Sent&)> sent;
     std::function<void(std::string_view)> heard;
