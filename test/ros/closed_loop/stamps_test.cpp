@@ -195,7 +195,7 @@ INSTANTIATE_TEST_SUITE_P(Table, PublishedStamps, testing::ValuesIn(kRows),
                          [](const auto& row) { return std::string{row.param.name}; });
 
 TEST(PublishedStampsOfADay, NeverGoBackAcrossMidnight) {
-  Voyage voyage{Dialect::Kingfisher, kFiveHours18_s, 50.0, 7, 1.0};
+  Voyage voyage{Dialect::Sandshark, kFiveHours18_s, 50.0, 7, 1.0};
   voyage.pass(24h);
   EXPECT_EQ(voyage.wentBack(), 0u);
   EXPECT_EQ(voyage.clock().steps, 0u);
