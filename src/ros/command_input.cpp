@@ -16,7 +16,6 @@ namespace {
 using namespace std::chrono_literals;
 
 constexpr std::uint32_t kNewestOnly = 1;
-constexpr auto kWarnAtMostEvery = 5s;
 
 // How long a message waited in this process, other nodelets' callbacks before it.
 std::chrono::nanoseconds waited(const ros::Time& receipt) {
@@ -113,7 +112,7 @@ void CommandInput::command(const char* topic, const ros::Time& receipt, Convert 
                                                                       session::Output& out) {
     const Converted converted = convert();
     if (const auto* refusal = std::get_if<std::string>(&converted)) {
-      session_.countRefusedCommands(1);
+      session_.countRefusedCommands(now, 1, *refusal);
       return warn(topic, *refusal, now);
     }
     const auto& wanted = std::get<vehicle::Command>(converted);
@@ -126,14 +125,13 @@ void CommandInput::refuse(const char* topic, std::string refusal) {
   ++refusals_;
   post(refused_,
        [this, topic, refusal = std::move(refusal)](const vehicle::Now& now, session::Output&) {
-         session_.countRefusedCommands(refusals_.exchange(0));
+         session_.countRefusedCommands(now, refusals_.exchange(0), refusal);
          warn(topic, refusal, now);
        });
 }
 
 void CommandInput::warn(const char* topic, const std::string& refusal, const vehicle::Now& now) {
-  if (now.steady < next_warning_) return;
-  next_warning_ = now.steady + kWarnAtMostEvery;
+  if (!log_.passes(now.steady)) return;
   ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
 }
 

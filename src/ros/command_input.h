@@ -20,6 +20,7 @@
 #include "command_convert.h"
 #include "frontseat_driver/session/nmea_session.h"
 #include "parameters.h"
+#include "throttle.h"
 #include "vehicle_publisher.h"
 
 namespace frontseat_driver::ros_layer {
@@ -82,7 +83,7 @@ class CommandInput {
   Mailbox refused_;
   std::atomic<std::uint32_t> refusals_{0};  ///< not counted by the session yet
   Mailbox payload_status_;
-  vehicle::SteadyTime next_warning_{};  ///< the session's thread only
+  Throttle log_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -1,5 +1,6 @@
 #include "message_builder.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "convert.h"
@@ -211,6 +212,7 @@ std_msgs::Header MessageBuilder::header(Topic topic, const ros::Time& stamp,
                                         const std::string& frame) {
   std_msgs::Header out;
   out.stamp = guards_[topic].clamp(stamp);
+  held_back_ = std::max(held_back_, std::chrono::nanoseconds{(out.stamp - stamp).toNSec()});
   out.frame_id = frame;
   return out;
 }

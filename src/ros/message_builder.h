@@ -17,7 +17,9 @@
 
 #include <GeographicLib/LocalCartesian.hpp>
 #include <array>
+#include <chrono>
 #include <optional>
+#include <utility>
 
 #include "arrival_clock.h"
 #include "frontseat_driver/protocol/message.h"
@@ -54,6 +56,12 @@ class MessageBuilder {
   /// Positions dropped because the vehicle cannot have got there, and how far the latest was off.
   std::uint64_t jumps() const { return filter_.jumps(); }
   double latestJump_m() const { return filter_.latestJump_m(); }
+
+  /// Whether there was a position that could be published.
+  bool positionKnown() const { return filter_.last().has_value(); }
+
+  /// By how much the stamp of a message would have gone back, at most, since the last call.
+  std::chrono::nanoseconds takeHeldBack() { return std::exchange(held_back_, {}); }
 
   /// Forgets stamps and data, not the datum: for a replay that starts again, where time goes back.
   void reset();
@@ -202,6 +210,7 @@ class MessageBuilder {
   Stamper stamper_;
   ArrivalClock arrivals_;
   std::array<StampGuard, kTopicCount> guards_;
+  std::chrono::nanoseconds held_back_{};
   JumpFilter filter_;
   std::optional<vehicle::Position> datum_;
   GeographicLib::LocalCartesian plane_;

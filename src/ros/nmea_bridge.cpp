@@ -2,20 +2,14 @@
 
 #include <ros/console.h>
 
+#include <chrono>
 #include <utility>
 
-#include "command_words.h"
 #include "convert.h"
-#include "frontseat_driver/vehicle/date_resolution.h"
 
 namespace frontseat_driver::ros_layer {
 
 namespace {
-
-using namespace std::chrono_literals;
-
-constexpr auto kWarnAtMostEvery = 5s;
-constexpr auto kRefusalTold = 3s;
 
 session::NmeaOptions sessionOptions(const Parameters& parameters) {
   session::NmeaOptions options = parameters.session;
@@ -35,8 +29,23 @@ session::NmeaOptions sessionOptions(const Parameters& parameters) {
   return options;
 }
 
-double seconds(std::chrono::nanoseconds duration) {
-  return std::chrono::duration<double>(duration).count();
+void log(const std::string& name, const TransitionLog::Line& line) {
+  switch (line.level) {
+    case Diagnosis::Level::Ok:
+      ROS_INFO("%s: %s", name.c_str(), line.text.c_str());
+      break;
+    case Diagnosis::Level::Warn:
+      ROS_WARN("%s: %s", name.c_str(), line.text.c_str());
+      break;
+    case Diagnosis::Level::Error:
+      ROS_ERROR("%s: %s", name.c_str(), line.text.c_str());
+      break;
+  }
+}
+
+std::string withAdvice(const std::string& reason) {
+  const std::string advice = linkAdvice(reason);
+  return advice.empty() ? reason : reason + "; " + advice;
 }
 
 }  // namespace
@@ -44,14 +53,11 @@ double seconds(std::chrono::nanoseconds duration) {
 NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string name,
                        const Parameters& parameters)
     : name_(std::move(name)),
-      configured_endpoint_(parameters.link.host + ":" + std::to_string(parameters.link.port)),
-      configured_leap_seconds_(parameters.leap_seconds),
       session_(sessionOptions(parameters)),
       publisher_(node, parameters),
-      diagnostics_(node, private_node, name_, seconds(parameters.max_data_age)),
+      diagnostics_(node, private_node, name_),
+      monitor_(parameters, session_),
       compass_check_(parameters) {
-  health_.endpoint = configured_endpoint_;
-  health_.last_failure = "not tried yet";
   reportHealth(clocks_.read());
   driver::Listener& listener = *this;
   if (parameters.source == Source::Topic) {
@@ -87,7 +93,11 @@ void NmeaBridge::post(SessionTask task) {
 void NmeaBridge::startRecordAgain() {
   publisher_.reset();
   last_heard_.reset();
-  next_jump_warning_ = {};
+  jump_log_ = {};
+  connect_log_ = {};
+  disconnect_log_ = {};
+  failure_log_ = {};
+  transitions_ = {};
 }
 
 // A record is a record: what is replayed keeps its name.
@@ -96,40 +106,42 @@ std::string NmeaBridge::connection() const {
 }
 
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
-  ROS_INFO("%s: connected to %s", name_.c_str(), endpoint.c_str());
+  monitor_.connected(now, endpoint);
   ++connects_;
-  failure_logged_ = false;
-  health_.connected = true;
-  health_.endpoint = endpoint;
-  last_navigation_.reset();
+  connected_ = true;
+  logged_failure_.clear();
+  if (connect_log_.passes(now.steady)) {
+    ROS_INFO("%s: connected to %s%s", name_.c_str(), endpoint.c_str(),
+             connect_log_.repeats().c_str());
+  }
   publishLink(now);
 }
 
 void NmeaBridge::onDisconnected(const vehicle::Now& now, const std::string& reason) {
-  ROS_WARN("%s: disconnected from %s: %s", name_.c_str(), health_.endpoint.c_str(), reason.c_str());
-  health_.connected = false;
-  health_.last_failure = reason;
-  health_.navigation_age_s.reset();
+  if (disconnect_log_.passes(now.steady)) {
+    ROS_WARN("%s: disconnected from %s: %s%s", name_.c_str(), monitor_.endpoint().c_str(),
+             withAdvice(reason).c_str(), disconnect_log_.repeats().c_str());
+  }
+  monitor_.disconnected(reason);
+  connected_ = false;
   followed_dialect_.reset();
   publishLink(now);
 }
 
 void NmeaBridge::onConnectFailed(const vehicle::Now& now, const std::string& reason,
                                  std::chrono::milliseconds retry_in) {
-  health_.endpoint = configured_endpoint_;
-  health_.last_failure = reason;
-  if (std::exchange(failure_logged_, true)) {
-    ROS_DEBUG("%s: %s; next try in %.1f s", name_.c_str(), reason.c_str(), seconds(retry_in));
-    return;
-  }
+  monitor_.connectFailed(reason);
+  ROS_DEBUG("%s: %s; next try in %.1f s", name_.c_str(), reason.c_str(), inSeconds(retry_in));
+  if (reason == logged_failure_ || !failure_log_.passes(now.steady)) return;
+  logged_failure_ = reason;
   ROS_WARN("%s: cannot connect to the vehicle at %s: %s; trying again until it answers",
-           name_.c_str(), configured_endpoint_.c_str(), reason.c_str());
+           name_.c_str(), monitor_.endpoint().c_str(), withAdvice(reason).c_str());
   publishLink(now);
 }
 
 void NmeaBridge::onHeard(const vehicle::Now& now, std::string_view line) {
   last_heard_ = now.steady;
-  rates_.count(line, now.steady);
+  monitor_.heard(now, line);
   publisher_.publishReceived(now, connection(), line);
 }
 
@@ -139,14 +151,16 @@ void NmeaBridge::onSent(const vehicle::Now& now, std::string_view line) {
 
 void NmeaBridge::onEvent(const vehicle::Now& now, const vehicle::Event& event) {
   followDialect();
+  monitor_.event(now, event);
   publisher_.publish(now, event);
-  watch(now, event);
+  watchCompass(now, event);
 }
 
 void NmeaBridge::onTick(const vehicle::Now& now) {
   warnOfJumps(now);
   publishLink(now);
-  reportHealth(now);
+  const Health health = reportHealth(now);
+  for (const auto& line : transitions_.take(diagnose(health), now.steady)) log(name_, line);
 }
 
 // The publisher's defaults follow the dialect, so it must know before it sees the first event.
@@ -158,46 +172,34 @@ void NmeaBridge::followDialect() {
   ROS_INFO("%s: the vehicle speaks the %s dialect", name_.c_str(), protocol::toString(*dialect));
 }
 
-void NmeaBridge::watch(const vehicle::Now& now, const vehicle::Event& event) {
+void NmeaBridge::watchCompass(const vehicle::Now& now, const vehicle::Event& event) {
   if (const auto* navigation = std::get_if<vehicle::Navigation>(&event)) {
-    last_navigation_ = now.steady;
     compass_check_.take(*navigation);
-    if (!navigation->measured_at) return;
-    const auto leap_seconds = configured_leap_seconds_.value_or(
-        session_.dialect() == protocol::Dialect::Kingfisher ? 18s : 0s);
-    const auto told = vehicle::resolveDate(*navigation->measured_at - leap_seconds, now.utc);
-    health_.clock_offset_s = seconds(told - now.utc);
   } else if (const auto* compass = std::get_if<vehicle::Compass>(&event)) {
     const std::string disagreement = compass_check_.take(*compass, now.steady);
     if (!disagreement.empty()) ROS_WARN("%s: %s", name_.c_str(), disagreement.c_str());
-  } else if (const auto* battery = std::get_if<vehicle::Battery>(&event)) {
-    health_.battery_v = battery->stack_v;
-  } else if (const auto* control = std::get_if<vehicle::Control>(&event)) {
-    health_.grant = control->grant;
-    health_.commands_enabled = control->commands_enabled;
-    health_.control_reason = std::string{control->reason};
   }
 }
 
 void NmeaBridge::warnOfJumps(const vehicle::Now& now) {
   const std::uint64_t jumps = publisher_.builder().jumps();
-  if (jumps == jumps_warned_ || now.steady < next_jump_warning_) return;
+  if (jumps == jumps_warned_ || !jump_log_.passes(now.steady)) return;
   ROS_WARN(
       "%s: dropped %lu position(s) too far from the last one, the latest by %.1f m; parameter "
       "max_jump sets the limit",
       name_.c_str(), static_cast<unsigned long>(jumps - jumps_warned_),
       publisher_.builder().latestJump_m());
   jumps_warned_ = jumps;
-  next_jump_warning_ = now.steady + kWarnAtMostEvery;
 }
 
 void NmeaBridge::publishLink(const vehicle::Now& now) {
   const session::NmeaCounters counters = session_.counters();
   LinkStatus status;
   status.header.stamp = toRosTime(now.stamp);
-  status.connected = health_.connected;
-  status.endpoint = health_.endpoint;
-  status.dialect = dialectName();
+  status.connected = connected_;
+  status.endpoint = monitor_.endpoint();
+  const auto dialect = session_.dialect();
+  status.dialect = dialect ? protocol::toString(*dialect) : "";
   status.connects = connects_;
   status.bytes_received = counters.bytes_received;
   status.bytes_sent = counters.bytes_sent;
@@ -212,28 +214,11 @@ void NmeaBridge::publishLink(const vehicle::Now& now) {
   publisher_.publishLink(status);
 }
 
-void NmeaBridge::reportHealth(const vehicle::Now& now) {
-  health_.dialect = dialectName();
-  health_.counters_before = std::exchange(health_.counters, session_.counters());
-  health_.rates = rates_.take(now.steady);
-  health_.taken = now.steady;
-  health_.replay = replay_ != nullptr;
-  health_.jumps = publisher_.builder().jumps();
-  health_.clock = publisher_.builder().clock();
-  if (last_navigation_) health_.navigation_age_s = seconds(now.steady - *last_navigation_);
-  const auto& commanded = session_.commanded();
-  health_.commanded = commanded ? toWords(*commanded) : "";
-  health_.effect_complaint = session_.effectComplaint();
-  const auto& refusal = session_.lastRefusal();
-  const bool recent = refusal && now.steady - refusal->at < kRefusalTold;
-  health_.vehicle_refusal = recent ? refusal->words : "";
-  health_.unacknowledged = session_.unacknowledged();
-  diagnostics_.set(health_);
-}
-
-const char* NmeaBridge::dialectName() const {
-  const auto dialect = session_.dialect();
-  return dialect ? protocol::toString(*dialect) : "";
+Health NmeaBridge::reportHealth(const vehicle::Now& now) {
+  Health health = monitor_.take(now, publisher_.builder(), publisher_.takeHeldBack());
+  // The timer that publishes it goes by the steady clock, also while a record is played.
+  diagnostics_.set(health, std::chrono::steady_clock::now());
+  return health;
 }
 
 }  // namespace frontseat_driver::ros_layer

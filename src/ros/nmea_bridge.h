@@ -11,6 +11,8 @@
 #include "command_input.h"
 #include "command_services.h"
 #include "compass_check.h"
+#include "diagnosis/health_monitor.h"
+#include "diagnosis/transition_log.h"
 #include "diagnostics.h"
 #include "expected_subscribers.h"
 #include "frontseat_driver/driver/driver.h"
@@ -18,7 +20,7 @@
 #include "host_clocks.h"
 #include "parameters.h"
 #include "replay.h"
-#include "sentence_rates.h"
+#include "throttle.h"
 #include "vehicle_publisher.h"
 
 namespace frontseat_driver::ros_layer {
@@ -51,30 +53,30 @@ class NmeaBridge : private driver::Listener {
   void startRecordAgain();
   std::string connection() const;
   void followDialect();
-  void watch(const vehicle::Now& now, const vehicle::Event& event);
+  void watchCompass(const vehicle::Now& now, const vehicle::Event& event);
   void warnOfJumps(const vehicle::Now& now);
   void publishLink(const vehicle::Now& now);
-  void reportHealth(const vehicle::Now& now);
-  const char* dialectName() const;
+  Health reportHealth(const vehicle::Now& now);
 
   HostClocks clocks_;
   const std::string name_;
-  const std::string configured_endpoint_;
-  const std::optional<std::chrono::seconds> configured_leap_seconds_;
   session::NmeaSession session_;
   VehiclePublisher publisher_;
   Diagnostics diagnostics_;
-  SentenceRates rates_;
+  HealthMonitor monitor_;
+  TransitionLog transitions_;
   CompassCheck compass_check_;
 
   std::optional<protocol::Dialect> followed_dialect_;
-  Health health_;
+  bool connected_ = false;
   std::uint32_t connects_ = 0;
-  bool failure_logged_ = false;  ///< since the last connection
+  std::string logged_failure_;  ///< to connect, since the last connection
+  Throttle connect_log_;
+  Throttle disconnect_log_;
+  Throttle failure_log_;
+  Throttle jump_log_;
   std::optional<vehicle::SteadyTime> last_heard_;
-  std::optional<vehicle::SteadyTime> last_navigation_;
   std::uint64_t jumps_warned_ = 0;
-  vehicle::SteadyTime next_jump_warning_{};
 
   std::unique_ptr<driver::Driver> driver_;  ///< one of the two
   std::unique_ptr<Replay> replay_;

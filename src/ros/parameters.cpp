@@ -187,6 +187,7 @@ void readCommands(PrivateParameters& in, Parameters& out) {
 void readSensors(PrivateParameters& in, Parameters& out) {
   out.max_jump_m_s = in.number("max_jump", out.max_jump_m_s, above(0, 1e6, "m/s"));
   out.max_data_age = in.duration("max_data_age", out.max_data_age, above(0, kHour_s, "s"));
+  out.battery_low_v = in.number("battery_low_voltage", out.battery_low_v, between(0, 1000, "V"));
   out.magnetic_declination_rad =
       in.number("magnetic_declination", out.magnetic_declination_rad, between(-kPi, kPi, "rad"));
   out.compass_convention =

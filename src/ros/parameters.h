@@ -72,6 +72,7 @@ struct Parameters {
 
   double max_jump_m_s = 50.0;
   std::chrono::nanoseconds max_data_age{std::chrono::seconds(2)};
+  double battery_low_v = 13.2;  ///< 12 NiMH cells at 1.1 V or 4 Li-ion at 3.3 V; 0: never low
   double magnetic_declination_rad = 0.0;  ///< east positive
   CompassConvention compass_convention = CompassConvention::Spec;
   AccelerationUnit acceleration_unit = AccelerationUnit::MetersPerSecondSquared;

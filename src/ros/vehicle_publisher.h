@@ -6,6 +6,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -45,6 +46,9 @@ class VehiclePublisher : private MessageOutlet {
 
   /// Every publisher there is.
   std::vector<ros::Publisher> publishers() const;
+
+  /// See MessageBuilder.
+  std::chrono::nanoseconds takeHeldBack() { return messages_.builder().takeHeldBack(); }
 
  private:
   static constexpr auto kTopics = static_cast<std::size_t>(VehicleTopic::Count);

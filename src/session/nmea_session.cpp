@@ -34,7 +34,7 @@ constexpr std::chrono::milliseconds kOfferAgain = 5ms;
 constexpr auto kLastWordsWait = 30ms;
 
 // Acknowledgements first, so that the other requests are acknowledged (SPI 0.1, section 7.1).
-std::vector<LogSwitch> logRequests(const NmeaOptions& options) {
+std::vector<LogSwitch> firstLogRequests(const NmeaOptions& options) {
   std::vector<LogSwitch> requests;
   if (options.use_acks) requests.push_back({std::string{kAck}, true});
   for (const std::string& sentence : options.log_sentences) {
@@ -82,7 +82,7 @@ std::string_view formatterOf(const Request& request) {
 
 NmeaSession::NmeaSession(NmeaOptions options)
     : options_(std::move(options)),
-      log_requests_(logRequests(options_)),
+      log_requests_(firstLogRequests(options_)),
       use_acks_(options_.use_acks),
       permission_(options_.control_hook, options_.commands_enabled),
       slot_(options_.command_timeout, periodOf(options_.command_rate_hz)),
@@ -244,13 +244,18 @@ std::string NmeaSession::command(const Now& now, const vehicle::Command& command
   std::string refusal = refusalOf(now, command);
   if (refusal.empty()) refusal = refusalOf(now, received);
   if (!refusal.empty()) {
-    ++counters_.refused_commands;
+    countRefusedCommands(now, 1, refusal);
     return refusal;
   }
   slot_.put(command, received);
   effect_.commanded(command, present(now), now.steady);
   reportControl(now, out);
   return {};
+}
+
+void NmeaSession::countRefusedCommands(const Now& now, std::uint64_t count, std::string words) {
+  counters_.refused_commands += count;
+  last_refused_command_ = {now.steady, std::move(words)};
 }
 
 std::string NmeaSession::refusalOf(const Now& now, const vehicle::Command& command) const {

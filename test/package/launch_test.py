@@ -32,6 +32,7 @@ LAUNCHES = (
      {"/simulator", "/frontseat", "/model", "/square"}),
     ("demo.launch", ["example:=survey", "rviz:=false"],
      {"/simulator", "/frontseat", "/model", "/survey"}),
+    ("diagnostics.launch", [], {"/diagnostic_aggregator"}),
     ("fleet.launch", [], {"/fleet", "/shark/simulator", "/fisher/simulator",
                           "/shark/frontseat", "/fisher/frontseat"}),
     ("fleet.launch", ["simulate:=false"], {"/fleet", "/shark/frontseat", "/fisher/frontseat"}),

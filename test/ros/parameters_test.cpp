@@ -70,6 +70,7 @@ TEST(Parameters, HaveTheDocumentedDefaults) {
   EXPECT_EQ(p.yaw_rate_unit, YawRateUnit::Rad);
   EXPECT_TRUE(p.speed_table.empty());
   EXPECT_EQ(p.max_jump_m_s, 50.0);
+  EXPECT_EQ(p.battery_low_v, 13.2);
   EXPECT_EQ(p.magnetic_declination_rad, 0.0);
   EXPECT_EQ(p.compass_convention, CompassConvention::Spec);
   EXPECT_EQ(p.acceleration_unit, AccelerationUnit::MetersPerSecondSquared);
@@ -187,6 +188,8 @@ const Accepted kAccepted[] = {
      [](auto& p) { return p.speed_table.size() == 2 && p.speed_table[0].rpm == 300.0; }},
     {"speed_empty", "speed_table", list({}), [](auto& p) { return p.speed_table.empty(); }},
     {"max_jump", "max_jump", 5, [](auto& p) { return p.max_jump_m_s == 5.0; }},
+    {"battery_low_voltage", "battery_low_voltage", 24,
+     [](auto& p) { return p.battery_low_v == 24.0; }},
     {"declination", "magnetic_declination", -0.25,
      [](auto& p) { return p.magnetic_declination_rad == -0.25; }},
     {"compass_heron", "compass_convention", "heron",
@@ -401,6 +404,8 @@ const Refused kRefused[] = {
     {"speed_table_text", "speed_table", "fast",
      "parameter speed_table is \"fast\": a list of pairs [[m/s, rpm], ...] that increases in both, "
      "0..10 m/s and -10000..10000 rpm, is accepted"},
+    {"battery_low_voltage", "battery_low_voltage", -1,
+     "parameter battery_low_voltage is -1: a number 0..1000 V is accepted"},
     {"max_jump", "max_jump", 0,
      "parameter max_jump is 0: a number above 0 and up to 1000000 m/s is accepted"},
     {"declination_in_degrees", "magnetic_declination", -14.5,

@@ -57,10 +57,10 @@ struct NmeaCounters {
   std::uint64_t refused_commands = 0;
 };
 
-/// The vehicle's own refusal of a repeated command: BFACK 0 or 1 for a BPRMB.
+/// A command that came to nothing, and why.
 struct CommandRefusal {
   SteadyTime at{};
-  std::string words;  ///< the vehicle's, with the status
+  std::string words;
 };
 
 /// The conversation in either NMEA dialect (SPI 0.1, section 4; Kingfisher 0.1, sections 2 and 4).
@@ -104,8 +104,8 @@ class NmeaSession : public Session {
   /// nothing.
   std::string setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status);
 
-  /// Counts commands that were refused before they got here.
-  void countRefusedCommands(std::uint64_t count) { counters_.refused_commands += count; }
+  /// Counts commands that were refused before they got here, and keeps why the last one was.
+  void countRefusedCommands(const Now& now, std::uint64_t count, std::string words);
 
   /// As given or as heard on this connection; empty while not known.
   std::optional<protocol::Dialect> dialect() const { return dialect_; }
@@ -120,9 +120,16 @@ class NmeaSession : public Session {
   /// What is being repeated to the vehicle; empty when nothing is.
   const std::optional<vehicle::Command>& commanded() const { return slot_.command(); }
 
-  /// The last on this connection; empty if there was none. One that a service waited for is its
-  /// caller's to hear, and not here.
+  /// The vehicle's last refusal of a repeated command, BFACK 0 or 1 for a BPRMB, in its own words
+  /// with the status. On this connection; empty if there was none. One that a service waited for is
+  /// its caller's to hear, and not here.
   const std::optional<CommandRefusal>& lastRefusal() const { return last_refusal_; }
+
+  /// The last command that this driver would not take, and why; empty if there was none.
+  const std::optional<CommandRefusal>& lastRefusedCommand() const { return last_refused_command_; }
+
+  /// What a Sandshark is asked for on every connection, in this order.
+  const std::vector<LogSwitch>& logRequests() const { return log_requests_; }
 
   /// Commands sent that the vehicle has not acknowledged yet.
   std::size_t unacknowledged() const { return acks_.outstanding(); }
@@ -190,6 +197,7 @@ class NmeaSession : public Session {
   AckTracker acks_;
   EffectMonitor effect_;
   std::optional<CommandRefusal> last_refusal_;
+  std::optional<CommandRefusal> last_refused_command_;
   vehicle::PayloadStatus payload_status_{true, "OK"};
   PresentState present_;
   SteadyTime navigation_at_{};

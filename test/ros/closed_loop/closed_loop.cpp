@@ -185,7 +185,7 @@ ros_layer::Converted ClosedLoop::convert(const Wanted& wanted) const {
 std::string ClosedLoop::publish(const Wanted& wanted) {
   const auto converted = convert(wanted);
   if (const auto* refusal = std::get_if<std::string>(&converted)) {
-    session_.countRefusedCommands(1);
+    session_.countRefusedCommands(now(), 1, *refusal);
     return *refusal;
   }
   const auto refusal =
