@@ -1,3 +1,4 @@
+# Not a component of catkin, which would link every other library with it.
 find_package(rosbag_storage REQUIRED)
 
 # What prints and counts is a library of its own, so that tests need no program.
