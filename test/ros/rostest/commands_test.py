@@ -160,16 +160,19 @@ class Refused(Commanding):
         links = self.collect("link", LinkStatus)
         good_one = self.repeat(good_topic, message)
         self.connection.wait_for(formatter)
-        for number, value in enumerate(bad, 1):
-            self.publisher(bad_topic, type(value)).publish(value)
-            links.wait_until(lambda link: link.refused_commands == number)
+        for value in bad:
+            refused = links.wait_for()[-1].refused_commands
+            # Only the newest of a topic waits: on a busy computer a good one takes its place.
+            bad_one = self.repeat(bad_topic, value, 5.0)
+            links.wait_until(lambda link: link.refused_commands > refused)
+            bad_one.stop()
         began = time.monotonic()
         wait_until(lambda: self.connection.since(began, formatter), "the good command going on")
         good_one.stop()
         # The fake vehicle falls silent after its greeting, which is told too.
         lines = [line for line in log.lines(self.driver.name) if " data: " not in line]
-        self.assertEqual(1, len(lines), lines)  # the others came within five seconds of it
         self.assertIn("refused %s: %s" % (bad_topic, field), lines[0])
+        self.assertLessEqual(len(lines), len(bad), lines)  # one in five seconds, whatever the rate
         motion = [body for body in self.connection.bodies()
                   if body[:2] == "PY" or body[2:5] == "RMB"]
         return {body.split(",", 2)[2] if formatter == "RMB" else body for body in motion}
