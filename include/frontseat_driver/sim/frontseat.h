@@ -16,6 +16,7 @@
 #include "frontseat_driver/sim/faults.h"
 #include "frontseat_driver/sim/quirks.h"
 #include "frontseat_driver/sim/sensors.h"
+#include "frontseat_driver/sim/truth.h"
 #include "frontseat_driver/sim/vehicle_model.h"
 #include "frontseat_driver/vehicle/clock.h"
 
@@ -49,13 +50,6 @@ struct Rate {
 
 /// The rates a dialect's vehicle has unless told otherwise: all that can be set.
 const std::vector<Rate>& defaultRates(protocol::Dialect dialect);
-
-/// The truth at the instant of a navigation solution.
-struct Truth {
-  UtcTime stamp{};  ///< UTC by the vehicle's clock, whole milliseconds, as NVG has it
-  nmea::LatLon position;
-  VehicleState state;
-};
 
 /// The vehicle's side of one dialect: what it says, and how it obeys. No socket, thread or clock:
 /// bytes and time are arguments, time is UTC and may be virtual. Equal calls give equal bytes.

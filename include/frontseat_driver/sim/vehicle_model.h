@@ -38,9 +38,10 @@ class VehicleModel {
   double batteryFraction() const { return battery_.fraction(); }
 
  protected:
-  /// Second derivatives of the angles (heading, pitch, roll) and the derivative of the surge.
+  /// Second derivatives of the angles (heading, pitch, roll), derivatives of surge and sway.
   struct Acceleration {
     double surge_m_s2 = 0.0;
+    double sway_m_s2 = 0.0;
     double heading_rad_s2 = 0.0;
     double pitch_rad_s2 = 0.0;
     double roll_rad_s2 = 0.0;

@@ -23,6 +23,7 @@ struct VehicleState {
   double velocity_north_m_s = 0.0;
   double velocity_down_m_s = 0.0;
   double surge_m_s = 0.0;  ///< along the bow, through the water
+  double sway_m_s = 0.0;   ///< level and to starboard, through the water
 
   double roll_rate_rad_s = 0.0;  ///< body rates about x, y and z
   double pitch_rate_rad_s = 0.0;
