@@ -3,18 +3,25 @@ if(NOT CLI11_INCLUDE_DIR)
   message(FATAL_ERROR "CLI11 was not found; install libcli11-dev")
 endif()
 
-add_executable(nmea_simulator
+# What all simulators have in common.
+add_library(${PROJECT_NAME}_simulator STATIC
   simulator_arguments.cpp
-  simulator_main.cpp
   simulator_ros.cpp
 )
-target_include_directories(nmea_simulator SYSTEM PRIVATE
-  ${CLI11_INCLUDE_DIR}
-  ${catkin_INCLUDE_DIRS}
-)
-target_link_libraries(nmea_simulator PRIVATE
+target_include_directories(${PROJECT_NAME}_simulator SYSTEM PRIVATE ${CLI11_INCLUDE_DIR})
+target_include_directories(${PROJECT_NAME}_simulator SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
+target_link_libraries(${PROJECT_NAME}_simulator PUBLIC
   ${PROJECT_NAME}_sim
   ${catkin_LIBRARIES}
 )
 
-install(TARGETS nmea_simulator RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+add_executable(nmea_simulator simulator_main.cpp)
+target_link_libraries(nmea_simulator PRIVATE ${PROJECT_NAME}_simulator)
+
+add_executable(blueye_simulator blueye_simulator_main.cpp)
+target_link_libraries(blueye_simulator PRIVATE
+  ${PROJECT_NAME}_sim_blueye
+  ${PROJECT_NAME}_simulator
+)
+
+install(TARGETS nmea_simulator blueye_simulator RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

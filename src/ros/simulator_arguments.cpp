@@ -6,8 +6,6 @@
 #include <iostream>
 #include <map>
 
-#include "frontseat_driver/sim/simulator_config.h"
-
 namespace frontseat_driver::sim {
 namespace {
 
@@ -27,8 +25,8 @@ std::vector<std::string> withoutRemappings(const std::vector<std::string>& argum
 }
 
 /// An option that does not exist; empty if all do.
-std::string unknownOption(const std::vector<std::string>& arguments) {
-  const auto& known = simulatorParameters();
+std::string unknownOption(const std::vector<ParameterHelp>& known,
+                          const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) {
     if (argument.compare(0, 2, "--") != 0) continue;
     const std::string name = argument.substr(2, argument.find('=') - 2);
@@ -47,33 +45,34 @@ SimulatorArguments ended(int exit_code) {
   return arguments;
 }
 
-void addOptions(CLI::App& app, std::map<std::string, std::string>& values) {
-  const SimulatorConfig defaults;
-  for (const SimulatorParameter& parameter : simulatorParameters()) {
+void addOptions(const std::vector<ParameterHelp>& known, CLI::App& app,
+                std::map<std::string, std::string>& values) {
+  for (const ParameterHelp& parameter : known) {
     app.add_option("--" + parameter.name, values[parameter.name],
-                   parameter.meaning + " (" + parameter.get(defaults) + "); " + parameter.accepted)
+                   parameter.meaning + " (" + parameter.standard + "); " + parameter.accepted)
         ->type_name("");
   }
 }
 
 }  // namespace
 
-SimulatorArguments parseArguments(const std::vector<std::string>& arguments) {
+SimulatorArguments parseArguments(const SimulatorProgram& program,
+                                  const std::vector<std::string>& arguments) {
   const std::vector<std::string> plain = withoutRemappings(arguments);
-  if (const std::string unknown = unknownOption(plain); !unknown.empty()) {
-    SimulatorConfig config;
-    std::cerr << *setParameter(config, unknown, "") << std::endl;
+  const std::vector<ParameterHelp>& known = program.parameters;
+  if (const std::string unknown = unknownOption(known, plain); !unknown.empty()) {
+    std::cerr << unknownParameter(known, unknown) << std::endl;
     return ended(EXIT_FAILURE);
   }
   CLI::App app{
-      "Simulated vehicle with the NMEA interface of a Sandshark or a Kingfisher.\n"
-      "Parameters may also be given as _name:=value and, with ROS, in its namespace.",
-      "nmea_simulator"};
+      program.description +
+          "\nParameters may also be given as _name:=value and, with ROS, in its namespace.",
+      program.name};
   SimulatorArguments parsed;
   bool no_ros = false;
   app.add_flag("--no-ros", no_ros, "serve without a ROS master; nothing is published");
   std::map<std::string, std::string> values;
-  addOptions(app, values);
+  addOptions(known, app, values);
   std::vector<std::string> last_first{plain.rbegin(), plain.rend()};  // as CLI11 wants them
   try {
     app.parse(last_first);

@@ -4,9 +4,18 @@
 #include <utility>
 #include <vector>
 
+#include "frontseat_driver/sim/parameter.h"
+
 namespace frontseat_driver::sim {
 
-/// What the command line of `nmea_simulator` says.
+/// A program with parameters.
+struct SimulatorProgram {
+  std::string name;
+  std::string description;
+  std::vector<ParameterHelp> parameters;
+};
+
+/// What the command line of a simulator says.
 struct SimulatorArguments {
   bool with_ros = true;
   /// The program is to end at once with this exit code; what there is to say has been printed.
@@ -16,6 +25,7 @@ struct SimulatorArguments {
 };
 
 /// Reads `--name value` and, as ROS writes it, `_name:=value`; other remappings are left alone.
-SimulatorArguments parseArguments(const std::vector<std::string>& arguments);
+SimulatorArguments parseArguments(const SimulatorProgram& program,
+                                  const std::vector<std::string>& arguments);
 
 }  // namespace frontseat_driver::sim

@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "frontseat_driver/sim/simulator_config.h"
 #include "simulator_arguments.h"
@@ -16,13 +18,19 @@
 namespace frontseat_driver::sim {
 namespace {
 
+SimulatorProgram program() {
+  return {"nmea_simulator",
+          "Simulated vehicle with the NMEA interface of a Sandshark or a Kingfisher.",
+          helpOf(simulatorParameters())};
+}
+
 /// What cannot be used, in one line.
-std::optional<std::string> takeValues(const SimulatorArguments& arguments,
-                                      SimulatorConfig& config) {
-  for (const auto& [name, value] : arguments.values) {
+std::optional<std::string> takeValues(
+    const std::vector<std::pair<std::string, std::string>>& values, SimulatorConfig& config) {
+  for (const auto& [name, value] : values) {
     if (auto wrong = setParameter(config, name, value)) return wrong;
   }
-  return findContradiction(config);
+  return std::nullopt;
 }
 
 int fail(const std::string& line) {
@@ -44,7 +52,8 @@ std::unique_ptr<SimulatorServer> listen(const SimulatorConfig& config,
 
 int runAlone(const SimulatorArguments& arguments) {
   SimulatorConfig config;
-  if (const auto wrong = takeValues(arguments, config)) return fail(*wrong);
+  if (const auto wrong = takeValues(arguments.values, config)) return fail(*wrong);
+  if (const auto wrong = findContradiction(config)) return fail(*wrong);
   sigset_t ending;
   sigemptyset(&ending);
   sigaddset(&ending, SIGINT);
@@ -62,8 +71,10 @@ int runNode(const SimulatorArguments& arguments) {
   std::signal(SIGTERM, [](int) { ros::requestShutdown(); });
   const ros::NodeHandle node{"~"};
   SimulatorConfig config;
-  if (const auto wrong = readParameters(node, config)) return fail(*wrong);
-  if (const auto wrong = takeValues(arguments, config)) return fail(*wrong);
+  const auto values = privateParameters(node, program().parameters, SimulatorNode::ownParameters());
+  if (const auto wrong = takeValues(values, config)) return fail(*wrong);
+  if (const auto wrong = takeValues(arguments.values, config)) return fail(*wrong);
+  if (const auto wrong = findContradiction(config)) return fail(*wrong);
   SimulatorNode truth{node};
   const auto server = listen(config, [&truth](const Truth& now) { truth.publish(now); });
   truth.offerControls(*server, config.dialect);
@@ -78,13 +89,13 @@ int runNode(const SimulatorArguments& arguments) {
 
 int main(int argc, char** argv) {
   using namespace frontseat_driver::sim;
-  const SimulatorArguments all = parseArguments({argv + 1, argv + argc});
+  const SimulatorArguments all = parseArguments(program(), {argv + 1, argv + argc});
   if (all.ended) return all.exit_code;
   try {
     if (!all.with_ros) return runAlone(all);
     ros::init(argc, argv, "nmea_simulator");
     // Private parameters are on the parameter server now; what is left are options.
-    return runNode(parseArguments({argv + 1, argv + argc}));
+    return runNode(parseArguments(program(), {argv + 1, argv + argc}));
   } catch (const std::exception& error) {
     return fail(error.what());
   }

@@ -52,21 +52,20 @@ std::string toText(XmlRpc::XmlRpcValue& value) {
   return out.str();
 }
 
-void warnAboutUnknown(const ros::NodeHandle& node) {
+void warnAboutUnknown(const ros::NodeHandle& node, const std::vector<ParameterHelp>& known,
+                      const std::vector<std::string>& own_names) {
   std::vector<std::string> names;
   if (!node.getParamNames(names)) return;
   const std::string prefix = node.getNamespace() + "/";
-  const auto& known = simulatorParameters();
   for (const std::string& name : names) {
     if (name.compare(0, prefix.size(), prefix) != 0) continue;
     const std::string own =
         name.substr(prefix.size(), name.find('/', prefix.size()) - prefix.size());
-    const bool found = own == kActualPort ||
+    const bool found = std::find(own_names.begin(), own_names.end(), own) != own_names.end() ||
                        std::any_of(known.begin(), known.end(),
                                    [&](const auto& parameter) { return parameter.name == own; });
     if (found) continue;
-    ROS_WARN("there is no parameter '%s': did you mean '%s'?", own.c_str(),
-             nearestParameter(own).c_str());
+    ROS_WARN("%s", unknownParameter(known, own).c_str());
   }
 }
 
@@ -135,15 +134,19 @@ nav_msgs::Odometry toOdometry(const Truth& truth) {
   return odometry;
 }
 
-std::optional<std::string> readParameters(const ros::NodeHandle& node, SimulatorConfig& config) {
-  for (const SimulatorParameter& parameter : simulatorParameters()) {
+std::vector<std::pair<std::string, std::string>> privateParameters(
+    const ros::NodeHandle& node, const std::vector<ParameterHelp>& known,
+    const std::vector<std::string>& own) {
+  std::vector<std::pair<std::string, std::string>> values;
+  for (const ParameterHelp& parameter : known) {
     XmlRpc::XmlRpcValue value;
-    if (!node.getParam(parameter.name, value)) continue;
-    if (auto wrong = setParameter(config, parameter.name, toText(value))) return wrong;
+    if (node.getParam(parameter.name, value)) values.emplace_back(parameter.name, toText(value));
   }
-  warnAboutUnknown(node);
-  return std::nullopt;
+  warnAboutUnknown(node, known, own);
+  return values;
 }
+
+std::vector<std::string> SimulatorNode::ownParameters() { return {kActualPort}; }
 
 SimulatorNode::SimulatorNode(const ros::NodeHandle& node)
     : node_(node), odometry_(node_.advertise<nav_msgs::Odometry>("odom", 100)) {}

@@ -4,10 +4,11 @@
 #include <ros/ros.h>
 
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "frontseat_driver/sim/parameter.h"
 #include "frontseat_driver/sim/simulator_config.h"
 
 namespace frontseat_driver::sim {
@@ -16,13 +17,18 @@ namespace frontseat_driver::sim {
 /// z = -depth, stamp = UTC by the vehicle's clock. Covariances are zero: it is the truth.
 nav_msgs::Odometry toOdometry(const Truth& truth);
 
-/// Takes every private parameter that is set into `config` and warns about those nobody knows.
-/// Returns the line that tells what cannot be used, if anything is.
-std::optional<std::string> readParameters(const ros::NodeHandle& node, SimulatorConfig& config);
+/// The private parameters that are set, as a command line would have them; warns about those that
+/// are neither `known` nor `own`, which the simulator itself sets.
+std::vector<std::pair<std::string, std::string>> privateParameters(
+    const ros::NodeHandle& node, const std::vector<ParameterHelp>& known,
+    const std::vector<std::string>& own);
 
 /// Publishes the truth and lets ROS call the vehicle's controls.
 class SimulatorNode {
  public:
+  /// Parameters that the simulator of an NMEA vehicle sets.
+  static std::vector<std::string> ownParameters();
+
   explicit SimulatorNode(const ros::NodeHandle& node);
 
   void publish(const Truth& truth) { odometry_.publish(toOdometry(truth)); }

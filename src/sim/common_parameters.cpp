@@ -1,7 +1,5 @@
-#include <arpa/inet.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 
 #include "frontseat_driver/sim/angles.h"
@@ -96,22 +94,6 @@ std::string allQuirks() {
   return text;
 }
 
-bool isAddress(const std::string& text) {
-  std::array<unsigned char, sizeof(in6_addr)> address{};
-  return inet_pton(AF_INET, text.c_str(), address.data()) == 1 ||
-         inet_pton(AF_INET6, text.c_str(), address.data()) == 1;
-}
-
-Parameter bindAddress() {
-  return {"bind", "address to listen on", "an IPv4 or IPv6 address in numbers",
-          [](Config& config, const std::string& text) {
-            if (!isAddress(text)) return false;
-            config.server.bind = text;
-            return true;
-          },
-          [](const Config& config) { return config.server.bind; }};
-}
-
 Parameter solutionAge() {
   return {"solution_age", "s from a navigation solution to its sentence",
           "a number, from 0 to 1, of whole milliseconds",
@@ -134,7 +116,8 @@ void addCommonParameters(std::vector<Parameter>& all) {
       {{"sandshark", [](Config& c) { c.dialect = protocol::Dialect::Sandshark; }},
        {"kingfisher", [](Config& c) { c.dialect = protocol::Dialect::Kingfisher; }}},
       "which vehicle", [](const Config& c) { return std::string{protocol::toString(c.dialect)}; }));
-  all.push_back(bindAddress());
+  all.push_back(ParameterKinds<Config>::address(
+      "bind", [](Config & c) -> auto& { return c.server.bind; }));
   all.push_back(whole<std::uint16_t>(
       "port", [](Config & c) -> auto& { return c.server.port; }, 0, 65535,
       "TCP port; 0: the system chooses"));

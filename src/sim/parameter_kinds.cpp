@@ -4,33 +4,11 @@ namespace frontseat_driver::sim {
 
 Parameter number(std::string name, double& (*in_config)(Config&), double low, double high,
                  std::string meaning) {
-  const std::string range =
-      high >= kAny ? toText(low) + " or more" : "from " + toText(low) + " to " + toText(high);
-  return {std::move(name), std::move(meaning), "a number, " + range,
-          [=](Config& config, const std::string& text) {
-            const auto value = toNumber(text);
-            if (!value || *value < low || *value > high) return false;
-            in_config(config) = *value;
-            return true;
-          },
-          [=](const Config& config) {
-            Config copy = config;
-            return toText(in_config(copy));
-          }};
+  return ParameterKinds<Config>::number(std::move(name), in_config, low, high, std::move(meaning));
 }
 
 Parameter flag(std::string name, bool& (*in_config)(Config&), std::string meaning) {
-  return {std::move(name), std::move(meaning), "true or false",
-          [=](Config& config, const std::string& text) {
-            const bool on = text == "true" || text == "True" || text == "1";
-            if (!on && text != "false" && text != "False" && text != "0") return false;
-            in_config(config) = on;
-            return true;
-          },
-          [=](const Config& config) {
-            Config copy = config;
-            return std::string{in_config(copy) ? "true" : "false"};
-          }};
+  return ParameterKinds<Config>::flag(std::move(name), in_config, std::move(meaning));
 }
 
 Parameter choice(std::string name, std::vector<Choice> choices, std::string meaning,
@@ -52,12 +30,8 @@ Parameter choice(std::string name, std::vector<Choice> choices, std::string mean
 Parameter numbers(std::string name, std::string meaning, std::string accepted,
                   bool (*take)(Config&, const std::vector<double>&),
                   std::vector<double> (*get)(const Config&)) {
-  return {std::move(name), std::move(meaning), std::move(accepted),
-          [take](Config& config, const std::string& text) {
-            const auto values = toNumbers(text);
-            return values && take(config, *values);
-          },
-          [get](const Config& config) { return toText(get(config)); }};
+  return ParameterKinds<Config>::numbers(std::move(name), std::move(meaning), std::move(accepted),
+                                         take, get);
 }
 
 }  // namespace frontseat_driver::sim

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "frontseat_driver/sim/simulator_config.h"
-#include "text_values.h"
+#include "parameter_of.h"
 
 namespace frontseat_driver::sim {
 
@@ -22,19 +21,8 @@ Parameter number(std::string name, double& (*in_config)(Config&), double low, do
 template <class Integer>
 Parameter whole(std::string name, Integer& (*in_config)(Config&), double low, double high,
                 std::string meaning) {
-  const std::string range = "from " + toText(low) + " to " + toText(high);
-  return {std::move(name), std::move(meaning), "a whole number " + range,
-          [=](Config& config, const std::string& text) {
-            const auto value = toNumber(text);
-            if (!value || *value < low || *value > high || *value != std::floor(*value))
-              return false;
-            in_config(config) = static_cast<Integer>(*value);
-            return true;
-          },
-          [=](const Config& config) {
-            Config copy = config;
-            return toText(static_cast<double>(in_config(copy)));
-          }};
+  return ParameterKinds<Config>::whole<Integer>(std::move(name), in_config, low, high,
+                                                std::move(meaning));
 }
 
 /// true or false, also as Python and numbers have them.
@@ -52,9 +40,6 @@ Parameter choice(std::string name, std::vector<Choice> choices, std::string mean
 Parameter numbers(std::string name, std::string meaning, std::string accepted,
                   bool (*take)(Config&, const std::vector<double>&),
                   std::vector<double> (*get)(const Config&));
-
-/// A number without limit.
-constexpr double kAny = 1e9;
 
 // The lists, in the order in which --help shows them.
 void addCommonParameters(std::vector<Parameter>& all);

@@ -56,8 +56,8 @@ VehicleModel::Acceleration Rov::accelerate(double dt_s) {
   a.pitch_rad_s2 = lean(actual_.pitch, now.pitch_rad, rates.pitch_rad_s);
   // Surface and bottom may have stopped it: go on from the speed it has.
   const double down = now.velocity_down_m_s;
-  heave_m_s_ = down + dt_s / kHeave.mass *
-                          (kHeave.force * actual_.heave - kHeave.drag(down) - buoyancy_n_);
+  heave_m_s_ =
+      down + dt_s / kHeave.mass * (kHeave.force * actual_.heave - kHeave.drag(down) - buoyancy_n_);
   return a;
 }
 

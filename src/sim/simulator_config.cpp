@@ -1,7 +1,6 @@
 #include "frontseat_driver/sim/simulator_config.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace frontseat_driver::sim {
 namespace {
@@ -15,22 +14,6 @@ std::string namesOf(const std::vector<Rate>& rates) {
   std::string names;
   for (const Rate& rate : rates) names.append(names.empty() ? "" : ", ").append(rate.sentence);
   return names;
-}
-
-/// Levenshtein distance.
-std::size_t distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row[b.size()];
 }
 
 }  // namespace
@@ -51,14 +34,7 @@ std::unique_ptr<Frontseat> makeFrontseat(const SimulatorConfig& config, UtcTime 
 
 std::optional<std::string> setParameter(SimulatorConfig& config, std::string_view name,
                                         const std::string& value) {
-  for (const SimulatorParameter& parameter : simulatorParameters()) {
-    if (parameter.name != name) continue;
-    if (parameter.set(config, value)) return std::nullopt;
-    return "parameter '" + parameter.name + "' is '" + value + "': accepted is " +
-           parameter.accepted;
-  }
-  return "there is no parameter '" + std::string{name} + "': did you mean '" +
-         nearestParameter(name) + "'?";
+  return setParameter(simulatorParameters(), config, name, value);
 }
 
 std::optional<std::string> findContradiction(const SimulatorConfig& config) {
@@ -69,15 +45,6 @@ std::optional<std::string> findContradiction(const SimulatorConfig& config) {
            protocol::toString(config.dialect) + " are " + namesOf(rates);
   }
   return std::nullopt;
-}
-
-std::string nearestParameter(std::string_view name) {
-  const auto& all = simulatorParameters();
-  return std::min_element(all.begin(), all.end(),
-                          [name](const SimulatorParameter& a, const SimulatorParameter& b) {
-                            return distance(a.name, name) < distance(b.name, name);
-                          })
-      ->name;
 }
 
 }  // namespace frontseat_driver::sim

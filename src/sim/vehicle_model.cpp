@@ -67,10 +67,10 @@ void VehicleModel::translate(double dt_s) {
   const double right = state_.sway_m_s;
   const double sin_heading = std::sin(state_.heading_rad);
   const double cos_heading = std::cos(state_.heading_rad);
-  state_.velocity_east_m_s = ahead * sin_heading + right * cos_heading +
-                             environment_.current_drift_m_s * std::sin(set);
-  state_.velocity_north_m_s = ahead * cos_heading - right * sin_heading +
-                              environment_.current_drift_m_s * std::cos(set);
+  state_.velocity_east_m_s =
+      ahead * sin_heading + right * cos_heading + environment_.current_drift_m_s * std::sin(set);
+  state_.velocity_north_m_s =
+      ahead * cos_heading - right * sin_heading + environment_.current_drift_m_s * std::cos(set);
   const double predicted_depth = state_.depth_m + before.velocity_down_m_s * dt_s;
   state_.velocity_down_m_s =
       std::clamp(sinkRate(), -std::max(0.0, predicted_depth) / kBoundary_s,

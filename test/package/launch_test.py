@@ -23,6 +23,7 @@ LAUNCHES = (
     ("driver.launch", ["manager:=/fleet", "model:=false", "dialect:=auto"], {"/frontseat"}),
     ("simulator.launch", [], {"/simulator"}),
     ("simulator.launch", ["vehicle:=kingfisher", "port:=29501"], {"/simulator"}),
+    ("simulator.launch", ["vehicle:=blueye", "telemetry_port:=6555"], {"/simulator"}),
     ("demo.launch", [], {"/simulator", "/frontseat", "/model", "/rviz"}),
     ("demo.launch", ["vehicle:=kingfisher", "rviz:=false"],
      {"/simulator", "/frontseat", "/model"}),

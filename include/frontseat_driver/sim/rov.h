@@ -17,10 +17,10 @@ struct RovAxes {
 /// What a ROV does along one axis: its mass (with the water it drags along) or inertia, the most
 /// its thrusters give, and the speed at which water takes that up.
 struct RovAxis {
-  double mass;      ///< kg, or kg m^2
-  double force;     ///< N, or N m, all thrusters full
-  double linear;    ///< damping in N per m/s, or N m per rad/s
-  double top_speed; ///< m/s, or rad/s, at full force
+  double mass;       ///< kg, or kg m^2
+  double force;      ///< N, or N m, all thrusters full
+  double linear;     ///< damping in N per m/s, or N m per rad/s
+  double top_speed;  ///< m/s, or rad/s, at full force
 
   /// Resistance at a speed, of the same sign.
   double drag(double speed) const;

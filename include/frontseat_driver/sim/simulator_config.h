@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "frontseat_driver/protocol/message.h"
 #include "frontseat_driver/sim/kingfisher_frontseat.h"
+#include "frontseat_driver/sim/parameter.h"
 #include "frontseat_driver/sim/sandshark_frontseat.h"
 #include "frontseat_driver/sim/simulator_server.h"
 
@@ -28,14 +28,7 @@ struct SimulatorConfig {
 /// The vehicle that a configuration describes, beginning at `start_time`.
 std::unique_ptr<Frontseat> makeFrontseat(const SimulatorConfig& config, UtcTime start_time);
 
-/// One parameter of the simulator: its text, as a command line or a YAML file has it.
-struct SimulatorParameter {
-  std::string name;
-  std::string meaning;                                            ///< with its unit
-  std::string accepted;                                           ///< in words
-  std::function<bool(SimulatorConfig&, const std::string&)> set;  ///< false: not accepted
-  std::function<std::string(const SimulatorConfig&)> get;
-};
+using SimulatorParameter = ParameterOf<SimulatorConfig>;
 
 /// Every parameter there is; the only list of them.
 const std::vector<SimulatorParameter>& simulatorParameters();
@@ -47,8 +40,5 @@ std::optional<std::string> setParameter(SimulatorConfig& config, std::string_vie
 
 /// What only both values together tell to be wrong, such as a rate the dialect does not have.
 std::optional<std::string> findContradiction(const SimulatorConfig& config);
-
-/// The known parameter name that is spelt most like `name`.
-std::string nearestParameter(std::string_view name);
 
 }  // namespace frontseat_driver::sim
