@@ -117,16 +117,21 @@ class Launch(unittest.TestCase):
                          (given["capture"], given["rate"], given["start"]))
 
     def test_models_have_the_sensor_frames(self):
-        expected = {"base_link", "imu_link", "gps_link", "compass_0_link", "compass_1_link",
-                    "altimeter_link"}
-        for path in package.files("urdf", ".urdf"):
-            model = xml.parse(os.path.join(package.ROOT, path)).getroot()
-            self.assertEqual(expected, {link.get("name") for link in model.iter("link")}, path)
+        boat = {"imu_link", "gps_link", "compass_0_link", "compass_1_link", "altimeter_link"}
+        drone = {"imu_link", "dvl_link", "altimeter_link", "pinger_link", "camera_tilt_link"}
+        frames = {"kingfisher": boat, "sandshark": boat, "blueye": drone}
+        moving = {"camera_tilt": "revolute"}
+        self.assertEqual({"urdf/%s.urdf" % name for name in frames},
+                         set(package.files("urdf", ".urdf")))
+        for name, expected in frames.items():
+            model = xml.parse(os.path.join(package.ROOT, "urdf", name + ".urdf")).getroot()
+            self.assertEqual(expected | {"base_link"},
+                             {link.get("name") for link in model.iter("link")}, name)
             children = {joint.find("child").get("link") for joint in model.iter("joint")}
-            self.assertEqual(expected - {"base_link"}, children, path)
+            self.assertEqual(expected, children, name)
             for joint in model.iter("joint"):
-                self.assertEqual(("fixed", "base_link"),
-                                 (joint.get("type"), joint.find("parent").get("link")), path)
+                self.assertEqual((moving.get(joint.get("name"), "fixed"), "base_link"),
+                                 (joint.get("type"), joint.find("parent").get("link")), name)
 
     def test_rviz_shows_topics_that_exist(self):
         displays = yaml.safe_load(package.read("rviz", "demo.rviz"))
