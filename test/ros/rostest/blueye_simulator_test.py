@@ -43,7 +43,8 @@ class BlueyeSimulator(unittest.TestCase):
         self.assertAlmostEqual(3.0, odom.pose.pose.position.x, places=2)
         self.assertAlmostEqual(-4.0, odom.pose.pose.position.y, places=2)
         q = odom.pose.pose.orientation
-        self.assertAlmostEqual(yaw, 2.0 * math.atan2(q.z, q.w), places=3)
+        self.assertAlmostEqual(yaw, math.remainder(2.0 * math.atan2(q.z, q.w), 2.0 * math.pi),
+                               places=3)
         ports = {rospy.get_param("/drone/actual_" + port) for port in PORTS}
         self.assertEqual(len(PORTS), len(ports))
         self.assertEqual("SIM42", drone_info("drone")["serial_number"])
