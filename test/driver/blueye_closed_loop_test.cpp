@@ -53,20 +53,24 @@ class Loop : public session::BlueyeOutput,
       if (lives && now.steady >= session.nextStep()) session.step(now, *this);
       drone.step(now.utc, *this);
       deliver();
+      if (reconnects) linkAnew();
     }
   }
 
-  bool takeControl() {
+  /// Empty when this client is in control then, else what it was told.
+  std::string takeControl() {
     std::optional<BlueyeSession::Answer> answer;
     session.takeControl(
         now, [&](const auto& given) { answer = given; }, *this);
     run(2s);
-    return answer && answer->success && session.inControl();
+    if (!answer) return "no answer";
+    if (!answer->success) return answer->message;
+    return session.inControl() ? "" : "success without control";
   }
 
   /// In control, with a program that says `ahead` again and again, and moving.
   void drive() {
-    ASSERT_TRUE(takeControl());
+    ASSERT_EQ(takeControl(), "");
     vehicle::MotionCommand ahead;
     ahead.surge = 0.8;
     program = ahead;
@@ -103,7 +107,7 @@ class Loop : public session::BlueyeOutput,
     if (link) drone.request("driver", type, payload);
     return true;
   }
-  void reconnect(const vehicle::Now&, const std::string&) override {}
+  void reconnect(const vehicle::Now&, const std::string&) override { reconnects = true; }
 
   void telemetry(const vehicle::Now&, std::string_view, std::string_view) override {}
   void event(const vehicle::Now&, const vehicle::Event&) override {}
@@ -131,6 +135,15 @@ class Loop : public session::BlueyeOutput,
   std::string other_reply;
 
  private:
+  void linkAnew() {
+    reconnects = false;
+    deadline.reset();
+    heard.clear();
+    replies.clear();
+    session.disconnected(now, *this);
+    session.connected(now, *this);
+  }
+
   void deliver() {
     while (!heard.empty()) {
       const auto message = std::move(heard.front());
@@ -152,6 +165,7 @@ class Loop : public session::BlueyeOutput,
   std::deque<std::pair<std::string, std::string>> heard;
   std::deque<std::pair<std::string, std::string>> replies;
   std::optional<vehicle::SteadyTime> deadline;
+  bool reconnects = false;
 };
 
 TEST(BlueyeClosedLoop, AnObserverMovesNothing) {
@@ -220,7 +234,7 @@ TEST(BlueyeClosedLoop, ARebootIsNoticedAndMovesNothing) {
   EXPECT_TRUE(loop.session.registered());
   EXPECT_FALSE(loop.session.inControl());
   EXPECT_EQ(loop.thrust(), 0.0);
-  EXPECT_TRUE(loop.takeControl());
+  EXPECT_EQ(loop.takeControl(), "");
 }
 
 TEST(BlueyeClosedLoop, WhoeverTakesControlIsNotDisturbed) {
