@@ -217,8 +217,7 @@ class Replayed(unittest.TestCase):
             record, lines = record_of(mission)
             self.assertGreater(lines, 0)
             runs.append((mission, lines, Replay(mission, name, record, player)))
-        for mission, lines, replay in runs:
-            self.addCleanup(replay.stop)
+            self.addCleanup(runs[-1][2].stop)
         for mission, lines, replay in runs:
             took_s = replay.wait_for(lines, timeout_s)
             self.compare(mission, lines, replay, name, took_s)
