@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "frontseat_driver/nmea/sentence.h"
 
@@ -12,8 +13,27 @@ __extension__ using Wide = unsigned __int128;  // the word quiets -Wpedantic
 
 constexpr std::size_t kTail = 5;  // `*`, two hex digits, CR, LF
 constexpr double kTooLarge = 1e15;
-constexpr std::uint64_t kPowers[] = {1,       10,        100,        1'000,       10'000,
-                                     100'000, 1'000'000, 10'000'000, 100'000'000, 1'000'000'000};
+/// 10^n for every n that 64 bits hold.
+constexpr std::uint64_t kPowers[] = {1,
+                                     10,
+                                     100,
+                                     1'000,
+                                     10'000,
+                                     100'000,
+                                     1'000'000,
+                                     10'000'000,
+                                     100'000'000,
+                                     1'000'000'000,
+                                     10'000'000'000,
+                                     100'000'000'000,
+                                     1'000'000'000'000,
+                                     10'000'000'000'000,
+                                     100'000'000'000'000,
+                                     1'000'000'000'000'000,
+                                     10'000'000'000'000'000,
+                                     100'000'000'000'000'000,
+                                     1'000'000'000'000'000'000,
+                                     10'000'000'000'000'000'000U};
 
 /// A number as whole units and a count of `scale`-ths.
 struct Fixed {
@@ -24,11 +44,12 @@ struct Fixed {
 /// `value` rounded to the nearest `scale`-th, ties to even; exact, because the bits of the double
 /// are. `value` is from 0 to kTooLarge, `scale` at most 60 x 10^9.
 Fixed toFixed(double value, std::uint64_t scale) {
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(value, &exponent), 53);  // value x 2^shift
-  const int shift = 53 - exponent;                                       // at least 3
-  if (shift > 100) return {0, 0};  // less than half of the smallest part
-  const auto bits = static_cast<std::uint64_t>(mantissa);
+  std::uint64_t pattern = 0;
+  std::memcpy(&pattern, &value, sizeof value);
+  const int shift = 1075 - static_cast<int>(pattern >> 52);  // value = bits / 2^shift; at least 3
+  if (shift > 100) return {0, 0};                            // less than half of the smallest part
+  constexpr std::uint64_t kHidden = std::uint64_t{1} << 52;
+  const std::uint64_t bits = kHidden | (pattern & (kHidden - 1));
   const std::uint64_t whole = shift > 63 ? 0 : bits >> shift;
   const std::uint64_t rest = shift > 63 ? bits : bits - (whole << shift);
   const Wide scaled = Wide{rest} * scale;
@@ -57,24 +78,29 @@ void SentenceWriter::require(bool condition) {
   if (!condition) state_ = State::Invalid;
 }
 
-void SentenceWriter::put(char c) { put(std::string_view{&c, 1}); }
+/// Makes room for so many characters and returns where they go; nowhere if there is none.
+inline char* SentenceWriter::take(std::size_t count) {
+  require(state_ == State::Open && count <= kCapacity - kTail - size_);
+  if (state_ != State::Open) return nullptr;
+  size_ += count;
+  return buffer_.data() + size_ - count;
+}
+
+void SentenceWriter::put(char c) {
+  if (char* const to = take(1)) *to = c;
+}
 
 void SentenceWriter::put(std::string_view text) {
-  require(state_ == State::Open && text.size() <= kCapacity - kTail - size_);
-  if (state_ != State::Open) return;
-  std::copy(text.begin(), text.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
-  size_ += text.size();
+  if (char* const to = take(text.size())) std::copy(text.begin(), text.end(), to);
 }
 
 /// `value` with leading zeros up to `width`.
 void SentenceWriter::putDigits(std::uint64_t value, int width) {
-  char digits[20];
-  char* const end = digits + sizeof digits;
-  char* first = end;
-  for (; value != 0 || end - first < width; value /= 10) {
-    *--first = static_cast<char>('0' + value % 10);
-  }
-  put({first, static_cast<std::size_t>(end - first)});
+  int count = 1;
+  while (count < 20 && (count < width || value >= kPowers[count])) ++count;
+  char* const to = take(static_cast<std::size_t>(count));
+  if (to == nullptr) return;
+  for (; count > 0; value /= 10) to[--count] = static_cast<char>('0' + value % 10);
 }
 
 void SentenceWriter::putFraction(std::uint64_t value, int decimals) {

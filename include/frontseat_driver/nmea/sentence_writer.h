@@ -58,6 +58,7 @@ class SentenceWriter {
   enum class State { Open, Finished, Invalid };
 
   void require(bool condition);
+  char* take(std::size_t count);
   void put(char c);
   void put(std::string_view text);
   void putDigits(std::uint64_t value, int width);
