@@ -15,7 +15,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak lint clean
+.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak lint bench clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -64,6 +64,10 @@ sanitize: ## the test programs under address, undefined behavior and thread sani
 
 pictures: build ## the README's plots and monitor, from demo missions of five minutes
 	@scripts/pictures
+bench: ## what a sentence costs, beside baselines, as doc/performance.md explains; BENCH=full takes half an hour
+	@scripts/install_dependencies build bench
+	@scripts/build -DFRONTSEAT_BENCH=ON
+	@scripts/bench $(BENCH)
 
 lint: ## clang-format, catkin_lint and clang-tidy over everything
 	@scripts/install_dependencies build test lint
