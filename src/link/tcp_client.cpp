@@ -86,6 +86,7 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
 
   bool write(std::string_view bytes) {
     if (!connected()) return false;
+    sent_ = true;
     error_code error;
     const std::size_t written =
         socket_.write_some(boost::asio::buffer(bytes.data(), bytes.size()), error);
@@ -220,6 +221,7 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     socket_.non_blocking(true, ignored);
     const auto silence_ms = static_cast<int>(options_.silence_timeout.count());
     setTcpOption(socket_, TCP_USER_TIMEOUT, silence_ms);
+    sent_ = true;
     last_byte_ = Clock::now();
     timeOutAt(last_byte_ + options_.silence_timeout, &Impl::checkSilence);
     waitForBytes();
@@ -228,9 +230,12 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
 
   void waitForBytes() {
     // Without it, a vehicle with Nagle's algorithm on that sends a bundle in two writes waits 40 ms
-    // for our acknowledgement when we send in between. The kernel forgets it again, so each time.
-    setTcpOption(socket_, TCP_QUICKACK, 1);
-    socket_.async_wait(tcp::socket::wait_read, then(&Impl::readable));
+    // for our acknowledgement when we send in between. The kernel forgets it when we send.
+    if (std::exchange(sent_, false)) setTcpOption(socket_, TCP_QUICKACK, 1);
+    // A look at one byte, since async_wait() goes through epoll_ctl() and one more epoll_wait().
+    socket_.async_receive(
+        boost::asio::buffer(&peeked_, 1), tcp::socket::message_peek,
+        [step = then(&Impl::readable)](const error_code& error, std::size_t) { step(error); });
   }
 
   void readable(const error_code& error) {
@@ -308,6 +313,8 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
   Clock::time_point attempt_ends_;
   Clock::time_point last_byte_;
   std::string broken_;  ///< why the connection is about to be ended; empty if it is not
+  bool sent_ = false;   ///< since the last wait for bytes
+  char peeked_ = 0;
   std::array<char, kReadSize> buffer_;
 };
 
