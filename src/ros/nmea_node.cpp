@@ -36,11 +36,11 @@ void waitForTheEnd() {
 int main(int argc, char** argv) {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
-  ros::init(argc, argv, "nmea_node", ros::init_options::NoSigintHandler);
+  ros::init(argc, argv, NODE_NAME, ros::init_options::NoSigintHandler);
   {
     nodelet::Loader loader{false};
     const nodelet::V_string no_arguments;
-    if (!loader.load(ros::this_node::getName(), "frontseat_driver/NmeaNodelet",
+    if (!loader.load(ros::this_node::getName(), NODELET_TYPE,
                      ros::names::getRemappings(), no_arguments)) {
       return 1;
     }

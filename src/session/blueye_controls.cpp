@@ -133,7 +133,7 @@ void ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutp
     if (same && it->control.respond) it->control.respond("a newer one took its place");
     it = same ? waiting_.erase(it) : std::next(it);
   }
-  const bool sent = out.publish(now, control.type, control.payload);
+  const bool sent = control.type.empty() || out.publish(now, control.type, control.payload);
   if (!control.confirmed_by.empty()) {
     const SteadyTime again = sent ? now.steady + kRepeatPeriod : now.steady;
     waiting_.push_back({std::move(control), now.steady, again});
@@ -155,7 +155,9 @@ void ConfirmedControls::step(const vehicle::Now& now, BlueyeOutput& out) {
   for (auto it = waiting_.begin(); it != waiting_.end();) {
     const bool late = now.steady >= it->deadline;
     if (late && it->control.respond) {
-      it->control.respond("sent, but the drone's telemetry did not show it in time");
+      it->control.respond(it->control.type.empty()
+                              ? "the drone's telemetry did not show it in time"
+                              : "sent, but the drone's telemetry did not show it in time");
     }
     if (!late && it->control.repeat && now.steady >= it->again) {
       out.publish(now, it->control.type, it->control.payload);
@@ -172,6 +174,12 @@ vehicle::SteadyTime ConfirmedControls::nextStep() const {
     if (waiting.control.repeat) next = std::min(next, waiting.again);
   }
   return next;
+}
+
+// In turn, so that each is asked for.
+std::string ConfirmedControls::awaited() {
+  waiting_.splice(waiting_.end(), waiting_, waiting_.begin());
+  return waiting_.back().control.confirmed_by;
 }
 
 void ConfirmedControls::failAll(const std::string& reason) {

@@ -25,6 +25,7 @@ constexpr auto kRegisterAgain = 1s;
 constexpr auto kGoodbyeTimeout = 50ms;
 constexpr auto kAskAgain = 100ms;
 constexpr auto kOvertaken = 1s;
+constexpr auto kAskForConfirmation = 300ms;
 constexpr double kMostRate_hz = 100.0;  // the document, SetPubFrequencyReq
 
 // What a program wants to know at once, and the drone tells only when it changes.
@@ -110,6 +111,7 @@ BlueyeSession::BlueyeSession(BlueyeOptions options, BlueyeListener& listener)
     : options_(std::move(options)),
       listener_(listener),
       rates_hz_(options_.rates_hz),
+      water_density_kg_m3_(options_.water_density_kg_m3),
       commands_enabled_(options_.commands_enabled),
       held_(options_.command_timeout, periodOf(options_.command_rate_hz), options_.clockwise_yaw) {}
 
@@ -216,7 +218,7 @@ void BlueyeSession::setUp(const Now& now, BlueyeOutput& out) {
   for (const char* message : kAskedAtStart) askForTelemetry(now, message, out);
 }
 
-void BlueyeSession::askForTelemetry(const Now& now, const char* message, BlueyeOutput& out) {
+void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, BlueyeOutput& out) {
   pb::GetTelemetryReq request;
   request.set_message_type(message);
   requests_.add(
@@ -329,9 +331,9 @@ void BlueyeSession::gainControl(const Now& now, BlueyeOutput& out) {
         now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
         [](const Now&, const BlueyeReply&, BlueyeOutput&) {}, out);
   }
-  if (options_.water_density_kg_m3) {
+  if (water_density_kg_m3_) {
     pb::WaterDensityCtrl message;
-    message.mutable_density()->set_value(static_cast<float>(*options_.water_density_kg_m3));
+    message.mutable_density()->set_value(static_cast<float>(*water_density_kg_m3_));
     out.publish(now, message.GetTypeName(), message.SerializeAsString());
   }
   if (options_.pinger_mounting != PingerMounting::Unset) {
@@ -586,9 +588,31 @@ void BlueyeSession::step(const Now& now, BlueyeOutput& out) {
   if (was_commanding != held_.commanding()) reportControl(now);
   if (now.steady >= watchdog_due_) sendWatchdog(now, out);
   confirmed_.step(now, out);
+  askForConfirmations(now, out);
   if (now.steady >= register_due_) ping(now, out);
   if (taking_ && now.steady >= taking_->again) continueTaking(now, out);
   requests_.step(now, out);
+}
+
+// Some telemetry comes seldom, and nobody should wait for it longer than the drone takes.
+void BlueyeSession::askForConfirmations(const Now& now, BlueyeOutput& out) {
+  if (confirmed_.empty()) {
+    ask_confirmations_ = now.steady + kAskForConfirmation;
+  } else if (now.steady >= ask_confirmations_) {
+    ask_confirmations_ = now.steady + kAskForConfirmation;
+    const std::string type = confirmed_.awaited();
+    askForTelemetry(now, std::string{withoutPackage(type)}, out);
+  }
+}
+
+void BlueyeSession::await(const Now& now, const std::string& telemetry_type,
+                          std::function<bool(std::string_view payload)> shows,
+                          ConfirmedControls::Respond respond, BlueyeOutput& out) {
+  ConfirmedControls::Control nothing;
+  nothing.confirmed_by = telemetry_type;
+  nothing.shows = std::move(shows);
+  nothing.respond = std::move(respond);
+  confirmed_.add(now, std::move(nothing), out);
 }
 
 void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
@@ -604,7 +628,8 @@ void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
 vehicle::SteadyTime BlueyeSession::nextStep() const {
   if (!reported_) return SteadyTime::min();
   return std::min({held_.nextStep(), watchdog_due_, confirmed_.nextStep(), register_due_,
-                   requests_.nextStep(), taking_ ? taking_->again : SteadyTime::max()});
+                   requests_.nextStep(), taking_ ? taking_->again : SteadyTime::max(),
+                   confirmed_.empty() ? SteadyTime::max() : ask_confirmations_});
 }
 
 void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {

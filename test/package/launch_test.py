@@ -21,6 +21,8 @@ LAUNCHES = (
     ("driver.launch", ["vehicle:=kingfisher", "namespace:=boat"],
      {"/boat/frontseat", "/boat/model"}),
     ("driver.launch", ["manager:=/fleet", "model:=false", "dialect:=auto"], {"/frontseat"}),
+    ("driver.launch", ["vehicle:=blueye", "namespace:=rov", "model:=false"], {"/rov/frontseat"}),
+    ("driver.launch", ["vehicle:=blueye", "manager:=/fleet", "model:=false"], {"/frontseat"}),
     ("simulator.launch", [], {"/simulator"}),
     ("simulator.launch", ["vehicle:=kingfisher", "port:=29501"], {"/simulator"}),
     ("simulator.launch", ["vehicle:=blueye", "telemetry_port:=6555"], {"/simulator"}),
@@ -79,6 +81,16 @@ class Launch(unittest.TestCase):
         sandshark = parameters(load("driver.launch", []), "/frontseat")
         self.assertEqual("sandshark", sandshark["dialect"])
         self.assertEqual("grid", sandshark["heading_reference"])
+
+    def test_a_blueye_gets_its_own_node_and_parameters(self):
+        config = load("driver.launch", ["vehicle:=blueye", "model:=false"])
+        self.assertEqual(["blueye_node"], [node.type for node in config.nodes])
+        given = parameters(config, "/frontseat")
+        self.assertEqual(("192.168.1.101", 5555, True),
+                         tuple(given[name] for name in ("host", "telemetry_port", "observer")))
+        self.assertNotIn("dialect", given)
+        nodelet = load("driver.launch", ["vehicle:=blueye", "manager:=/fleet", "model:=false"])
+        self.assertIn("frontseat_driver/BlueyeNodelet", nodelet.nodes[0].args)
 
     def test_an_example_chooses_its_vehicle(self):
         for example, vehicle in (("square", "kingfisher"), ("survey", "sandshark")):

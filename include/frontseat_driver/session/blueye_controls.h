@@ -68,7 +68,7 @@ class ConfirmedControls {
   using Respond = std::function<void(const std::string& refusal)>;
 
   struct Control {
-    std::string type;  ///< with package
+    std::string type;  ///< with package; empty: nothing is sent, only waited for
     std::string payload;
     bool repeat = false;       ///< sending it twice is as good as once
     std::string confirmed_by;  ///< telemetry type with package; empty: sent is done
@@ -85,6 +85,11 @@ class ConfirmedControls {
   void step(const vehicle::Now& now, BlueyeOutput& out);
   SteadyTime nextStep() const;
   void failAll(const std::string& reason);
+
+  bool empty() const { return waiting_.empty(); }
+
+  /// The telemetry that is waited for next, with package; not while empty().
+  std::string awaited();
 
  private:
   struct Waiting {

@@ -143,6 +143,14 @@ class BlueyeSession {
   void setRate(const vehicle::Now& now, const std::string& message, double rate_hz, Respond respond,
                BlueyeOutput& out);
 
+  /// Sent whenever control is gained from now on.
+  void setWaterDensity(double density_kg_m3) { water_density_kg_m3_ = density_kg_m3; }
+
+  /// Waits for telemetry that shows something, asking for it meanwhile.
+  void await(const vehicle::Now& now, const std::string& telemetry_type,
+             std::function<bool(std::string_view payload)> shows,
+             ConfirmedControls::Respond respond, BlueyeOutput& out);
+
   void countRefusedCommands(std::uint64_t count) { counters_.refused_commands += count; }
 
   /// Registered with the drone.
@@ -175,7 +183,8 @@ class BlueyeSession {
   void setUp(const vehicle::Now& now, BlueyeOutput& out);
   void askForRate(const vehicle::Now& now, const std::string& message, double rate_hz,
                   Respond respond, BlueyeOutput& out);
-  void askForTelemetry(const vehicle::Now& now, const char* message, BlueyeOutput& out);
+  void askForTelemetry(const vehicle::Now& now, const std::string& message, BlueyeOutput& out);
+  void askForConfirmations(const vehicle::Now& now, BlueyeOutput& out);
   void continueTaking(const vehicle::Now& now, BlueyeOutput& out);
   void finishTaking(const vehicle::Now& now, const Answer& answer, BlueyeOutput& out);
 
@@ -201,6 +210,7 @@ class BlueyeSession {
   BlueyeListener& listener_;
   std::map<std::string, double> rates_hz_;
   BlueyeCounters counters_;
+  std::optional<double> water_density_kg_m3_;
   bool commands_enabled_;
   bool leaving_ = false;
   bool goodbye_said_ = false;
@@ -222,6 +232,7 @@ class BlueyeSession {
   bool permitted_ = false;
   SteadyTime watchdog_due_ = SteadyTime::max();
   std::optional<Taking> taking_;
+  SteadyTime ask_confirmations_{};
   vehicle::MissionStatus::State mission_ = vehicle::MissionStatus::State::Unknown;
   std::optional<std::chrono::nanoseconds> drone_uptime_;
 

@@ -54,8 +54,9 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
 
   // What the session tells.
 
-  void telemetry(const vehicle::Now&, std::string_view type, std::string_view) override {
+  void telemetry(const vehicle::Now&, std::string_view type, std::string_view payload) override {
     heard.push_back(shortName(type));
+    heard_bytes = std::string{payload};
   }
   void event(const vehicle::Now&, const vehicle::Event& event) override {
     if (const auto* changed = std::get_if<vehicle::Control>(&event)) {
@@ -181,12 +182,15 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   bool link_takes = true;
   bool keeps_control = false;  ///< whoever is in control stays so, whatever is asked
   bool took_control = false;
+  bool echoes = false;  ///< every request is answered with `echo`
+  std::pair<std::string, std::string> echo;
   std::uint32_t last_id = 0;
   std::uint32_t in_control = 0;
   std::vector<BlueyeClient> registry;
   std::vector<Sent> controls;
   std::vector<Sent> requests;
   std::vector<std::string> heard;
+  std::string heard_bytes;
   std::vector<std::string> reconnects;
   std::vector<std::string> notes;
   std::vector<vehicle::MissionStatus::State> mission;
@@ -231,6 +235,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   }
 
   void answer(const Sent& request) {
+    if (echoes) return session.reply(now, echo.first, echo.second, *this);
     if (request.type == "ConnectClientReq") {
       pb::ConnectClientReq asked;
       asked.ParseFromString(request.payload);

@@ -1,0 +1,301 @@
+#include "blueye/bridge.h"
+
+#include <frontseat_driver/BlueyeClients.h>
+#include <frontseat_driver/ControlStatus.h>
+#include <frontseat_driver/LinkStatus.h>
+#include <frontseat_driver/MissionStatus.h>
+#include <ros/console.h>
+
+#include <utility>
+
+#include "blueye/topics.h"
+#include "convert.h"
+
+namespace frontseat_driver::ros_layer::blueye_layer {
+
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr std::uint32_t kQueue = 10;
+constexpr std::uint32_t kReplayQueue = 2000;
+constexpr bool kLatched = true;
+constexpr double kLowBattery = 0.2;
+
+/// Nothing is ever sent while a record is played; the session knows, this makes sure.
+class Mute : public session::BlueyeOutput {
+ public:
+  bool publish(const vehicle::Now&, std::string_view, std::string_view) override { return false; }
+  bool request(const vehicle::Now&, std::string_view, std::string_view,
+               std::chrono::milliseconds) override {
+    return false;
+  }
+  void reconnect(const vehicle::Now&, const std::string&) override {}
+};
+
+Mute mute;
+
+void logNotification(const std::string& name, const BlueyeNotification& told) {
+  const std::string text = told.name + (told.value.empty() ? "" : " " + told.value);
+  if (told.level == BlueyeNotification::ERROR) {
+    ROS_ERROR("%s: the drone tells: %s", name.c_str(), text.c_str());
+  } else if (told.level == BlueyeNotification::WARNING) {
+    ROS_WARN("%s: the drone tells: %s", name.c_str(), text.c_str());
+  } else {
+    ROS_INFO("%s: the drone tells: %s", name.c_str(), text.c_str());
+  }
+}
+
+}  // namespace
+
+Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string name,
+               const Parameters& parameters)
+    : name_(std::move(name)),
+      parameters_(parameters),
+      session_(parameters.session, *this),
+      publisher_(
+          node, parameters.publisher, catalogue_,
+          [this](const std::string& text) { ROS_WARN("%s: %s", name_.c_str(), text.c_str()); },
+          [this](const BlueyeNotification& told) { logNotification(name_, told); }),
+      link_(node.advertise<LinkStatus>(topics::kLink, kQueue, kLatched)),
+      control_(node.advertise<ControlStatus>(topics::kControl, kQueue, kLatched)),
+      clients_(node.advertise<BlueyeClients>(topics::kClients, kQueue, kLatched)),
+      mission_(node.advertise<MissionStatus>(topics::kMissionStatus, kQueue, kLatched)),
+      endpoint_(parameters.link.host + ":" + std::to_string(parameters.link.telemetry_port)) {
+  addDiagnostics(node, private_node);
+  if (parameters.source == Source::Topic) {
+    endpoint_ = node.resolveName(topics::kTelemetryReplay);
+    onConnected(clocks_.read(), endpoint_);
+    session_.connected(clocks_.read(), mute);
+    replay_ = node.subscribe(topics::kTelemetryReplay, kReplayQueue, &Bridge::replay, this);
+  } else {
+    driver::BlueyeLinkListener& listener = *this;
+    driver_ = std::make_unique<driver::BlueyeDriver>(parameters.link, session_, listener,
+                                                     [this] { return clocks_.read(); });
+  }
+  const auto post_task = [this](Task task) { post(std::move(task)); };
+  input_ = std::make_unique<Input>(node, name_, parameters, session_, catalogue_, post_task);
+  services_ =
+      std::make_unique<Services>(node, parameters, session_, publisher_, catalogue_, post_task);
+  if (driver_) driver_->start();
+}
+
+// Tasks refer to the input and the services, so these stay until no task can run any more.
+Bridge::~Bridge() {
+  services_->close();
+  input_->close();
+  replay_.shutdown();
+  if (driver_) driver_->stop();
+}
+
+void Bridge::post(Task task) {
+  if (driver_) {
+    return driver_->post(
+        [this, task = std::move(task)](const vehicle::Now& now) { task(now, driver_->output()); });
+  }
+  const std::lock_guard<std::mutex> lock(replay_mutex_);
+  task(clocks_.read(), mute);
+}
+
+// Stamps are those of the record, so that a replay gives what the dive gave.
+void Bridge::replay(const BlueyeMessage::ConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(replay_mutex_);
+  vehicle::Now now = clocks_.read();
+  now.stamp = toUtcTime(message->header.stamp);
+  const std::string_view payload{reinterpret_cast<const char*>(message->data.data()),
+                                 message->data.size()};
+  session_.telemetry(now, message->type, payload, mute);
+  session_.step(now, mute);
+  if (now.steady < next_health_) return;
+  next_health_ = now.steady + std::chrono::seconds(1);
+  onTick(now);
+}
+
+// --- What the link tells ---
+
+void Bridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
+  ROS_INFO("%s: connected to %s", name_.c_str(), endpoint.c_str());
+  ++connects_;
+  connected_ = true;
+  failure_logged_ = false;
+  endpoint_ = endpoint;
+  publishLink(now);
+}
+
+void Bridge::onDisconnected(const vehicle::Now& now, const std::string& reason) {
+  ROS_WARN("%s: disconnected from %s: %s", name_.c_str(), endpoint_.c_str(), reason.c_str());
+  connected_ = false;
+  last_failure_ = reason;
+  publisher_.forget();
+  publishLink(now);
+}
+
+void Bridge::onConnectFailed(const vehicle::Now& now, const std::string& reason) {
+  last_failure_ = reason;
+  if (std::exchange(failure_logged_, true)) {
+    ROS_DEBUG("%s: %s", name_.c_str(), reason.c_str());
+    return;
+  }
+  ROS_WARN("%s: cannot connect to the drone: %s; trying again until it answers", name_.c_str(),
+           reason.c_str());
+  publishLink(now);
+}
+
+void Bridge::onControlSent(const vehicle::Now& now, std::string_view type,
+                           std::string_view payload) {
+  ++sent_;
+  sent_bytes_ += type.size() + payload.size();
+  publisher_.publishControl(now, type, payload);
+}
+
+void Bridge::onRequestSent(const vehicle::Now&, std::string_view type, std::string_view payload) {
+  ++sent_;
+  sent_bytes_ += type.size() + payload.size();
+}
+
+void Bridge::onTick(const vehicle::Now& now) {
+  publishLink(now);
+  takeHealth();
+}
+
+// --- What the session tells ---
+
+void Bridge::telemetry(const vehicle::Now& now, std::string_view type, std::string_view payload) {
+  heard_ = now.steady;
+  if (!publisher_.publish(now, type, payload)) ++unreadable_;
+  if (!publisher_.handles(type) && !catalogue_.knows(type)) ++unknown_;
+}
+
+void Bridge::event(const vehicle::Now& now, const vehicle::Event& event) {
+  if (const auto* control = std::get_if<vehicle::Control>(&event)) {
+    ControlStatus out;
+    out.header.stamp = toRosTime(now.stamp);
+    out.grant = static_cast<std::uint8_t>(control->grant);
+    out.commands_enabled = control->commands_enabled;
+    out.commanding = control->commanding;
+    out.reason = std::string{control->reason};
+    control_.publish(out);
+  } else if (const auto* mission = std::get_if<vehicle::MissionStatus>(&event)) {
+    MissionStatus out;
+    out.header.stamp = toRosTime(now.stamp);
+    out.state = static_cast<std::uint8_t>(mission->state);
+    out.status = std::string{mission->status};
+    mission_.publish(out);
+  }
+}
+
+void Bridge::clients(const vehicle::Now& now) {
+  BlueyeClients out;
+  out.header.stamp = toRosTime(now.stamp);
+  out.own_id = session_.id();
+  out.id_in_control = session_.idInControl();
+  for (const session::BlueyeClient& client : session_.clients()) {
+    BlueyeClient& one = out.clients.emplace_back();
+    one.id = client.id;
+    one.name = client.name;
+    one.type = client.type;
+    one.observer = client.observer;
+  }
+  clients_.publish(out);
+}
+
+void Bridge::note(const std::string& text) { ROS_WARN("%s: %s", name_.c_str(), text.c_str()); }
+
+void Bridge::publishLink(const vehicle::Now& now) {
+  const session::BlueyeCounters& counters = session_.counters();
+  LinkStatus status;
+  status.header.stamp = toRosTime(now.stamp);
+  status.connected = connected_;
+  status.endpoint = endpoint_;
+  status.dialect = "blueye";
+  status.connects = connects_;
+  status.bytes_received = counters.bytes_received;
+  status.bytes_sent = sent_bytes_;
+  status.sentences_received = counters.telemetry_received + counters.replies_received;
+  status.sentences_sent = sent_;
+  status.malformed = counters.malformed + unreadable_;
+  status.unknown = unknown_;
+  status.refused_commands = counters.refused_commands;
+  if (heard_) status.since_received.fromNSec((now.steady - *heard_).count());
+  link_.publish(status);
+}
+
+// --- Diagnostics ---
+
+void Bridge::addDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node) {
+  updater_ = std::make_unique<diagnostic_updater::Updater>(node, private_node, name_);
+  updater_->setHardwareID("blueye");
+  updater_->add("link", this, &Bridge::reportLink);
+  updater_->add("control", this, &Bridge::reportControl);
+  updater_->add("drone", this, &Bridge::reportDrone);
+  updater_->add("battery", this, &Bridge::reportBattery);
+}
+
+void Bridge::takeHealth() {
+  Health health;
+  health.connected = connected_;
+  health.endpoint = endpoint_;
+  health.last_failure = last_failure_;
+  health.counters = session_.counters();
+  health.unknown = unknown_;
+  health.unreadable = unreadable_;
+  health.refusal = session_.refusal();
+  health.id = session_.id();
+  health.id_in_control = session_.idInControl();
+  health.error_flags = publisher_.errorFlags();
+  health.values = publisher_.diagnostics();
+  if (const auto& battery = publisher_.battery()) {
+    health.battery_level = battery->level();
+    health.battery_v = battery->voltage();
+  }
+  const std::lock_guard<std::mutex> lock(health_mutex_);
+  health_ = std::move(health);
+}
+
+void Bridge::reportLink(DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(health_mutex_);
+  if (health_.connected) {
+    status.summary(DiagnosticStatus::OK, "connected to " + health_.endpoint);
+  } else {
+    status.summary(DiagnosticStatus::ERROR, "not connected: " + health_.last_failure);
+  }
+  status.add("telemetry messages", health_.counters.telemetry_received);
+  status.add("replies", health_.counters.replies_received);
+  status.add("malformed", health_.counters.malformed + health_.unreadable);
+  status.add("unknown messages", health_.unknown);
+}
+
+void Bridge::reportControl(DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(health_mutex_);
+  status.summary(DiagnosticStatus::OK,
+                 health_.refusal.empty() ? "this driver is in control" : health_.refusal);
+  status.add("own client", health_.id);
+  status.add("client in control", health_.id_in_control);
+  status.add("refused commands", health_.counters.refused_commands);
+}
+
+void Bridge::reportDrone(DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(health_mutex_);
+  status.summary(DiagnosticStatus::OK, "no error flags");
+  for (const std::string& flag : health_.error_flags) {
+    const bool grave = flag.rfind("depth", 0) == 0 || flag.rfind("inner_pressure", 0) == 0 ||
+                       flag.rfind("pmu_comm", 0) == 0;
+    status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, flag);
+    status.add(flag, true);
+  }
+  for (const auto& [type, values] : health_.values) {
+    for (const auto& [path, value] : values) status.add(path, value);
+  }
+}
+
+void Bridge::reportBattery(DiagnosticStatusWrapper& status) {
+  const std::lock_guard<std::mutex> lock(health_mutex_);
+  if (!health_.battery_level) return status.summary(DiagnosticStatus::OK, "not told yet");
+  const bool low = *health_.battery_level < kLowBattery;
+  status.summaryf(low ? DiagnosticStatus::WARN : DiagnosticStatus::OK, "%.0f %%",
+                  *health_.battery_level * 100.0);
+  status.add("voltage", health_.battery_v);
+}
+
+}  // namespace frontseat_driver::ros_layer::blueye_layer

@@ -1,0 +1,248 @@
+#include "blueye/input.h"
+
+#include <blueye/control.pb.h>
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "blueye/topics.h"
+
+namespace frontseat_driver::ros_layer::blueye_layer {
+
+namespace {
+
+using namespace std::chrono_literals;
+using session::BlueyeOutput;
+
+constexpr std::uint32_t kNewestOnly = 1;
+constexpr auto kWarnAtMostEvery = 5s;
+constexpr auto kPilotAtMostEvery = 1s;
+constexpr double kMultibeamLimit_deg = 28.0;  // of the servo, though the document says 30
+
+// How long a message waited in this process, other nodelets' callbacks before it.
+std::chrono::nanoseconds waited(const ros::Time& receipt) {
+  const ros::Duration waited = ros::Time::now() - receipt;
+  return std::max<std::chrono::nanoseconds>(0ns, std::chrono::nanoseconds{waited.toNSec()});
+}
+
+std::string outside(const char* name, double value, double low, double high) {
+  if (value >= low && value <= high) return {};
+  char text[120];
+  std::snprintf(text, sizeof text, "%s is %.10g; %g to %g is accepted", name, value, low, high);
+  return text;
+}
+
+}  // namespace
+
+Input::Input(ros::NodeHandle node, std::string name, const Parameters& parameters,
+             session::BlueyeSession& session, const protocol::BlueyeCatalogue& catalogue, Post post)
+    : node_(std::move(node)),
+      name_(std::move(name)),
+      parameters_(parameters),
+      session_(session),
+      catalogue_(catalogue),
+      post_(std::move(post)) {
+  motion_ = &mailboxes_.emplace_back();
+  subscribe<MotionInput>(topics::kCmdMotion,
+                         [this](const auto& now, const auto& wanted, auto at, auto&) {
+                           return move(now, toCommand(wanted), at);
+                         });
+  subscribe<geometry_msgs::Twist>(topics::kCmdVel,
+                                  [this](const auto& now, const auto& wanted, auto at, auto&) {
+                                    return move(now, toCommand(wanted, parameters_.full_speed), at);
+                                  });
+  subscribe<std_msgs::Float64>(
+      topics::kCmdTilt, [this](const auto& now, const auto& wanted, auto at, auto&) {
+        const std::string refusal = outside("data", wanted.data, -1.0, 1.0);
+        if (!refusal.empty()) return refusal;
+        return session_.command(now, vehicle::TiltCommand{wanted.data}, at);
+      });
+  subscribe<Gripper>(
+      topics::kCmdGripper, [this](const auto& now, const auto& wanted, auto at, auto&) {
+        std::string refusal = outside("grip", wanted.grip, -1.0, 1.0);
+        if (refusal.empty()) refusal = outside("rotate", wanted.rotate, -1.0, 1.0);
+        if (!refusal.empty()) return refusal;
+        return session_.command(now, vehicle::GripperCommand{wanted.grip, wanted.rotate}, at);
+      });
+  subscribe<std_msgs::Float64>(topics::kCmdLights,
+                               [this](const auto& now, const auto& wanted, auto, auto& out) {
+                                 return level<pb::LightsCtrl>(now, "LightsTel", wanted.data, out);
+                               });
+  subscribe<std_msgs::Float64>(
+      topics::kCmdGuestPortLights, [this](const auto& now, const auto& wanted, auto, auto& out) {
+        return level<pb::GuestportLightsCtrl>(now, "GuestPortLightsTel", wanted.data, out);
+      });
+  subscribe<std_msgs::Float64>(
+      topics::kCmdLaser, [this](const auto& now, const auto& wanted, auto, auto& out) {
+        const std::string refusal = outside("data", wanted.data, 0.0, 1.0);
+        if (!refusal.empty()) return refusal;
+        pb::LaserCtrl message;
+        message.mutable_laser()->set_value(static_cast<float>(wanted.data));
+        return control(now, message, out);
+      });
+  subscribe<sensor_msgs::JointState>(topics::kCmdJoint,
+                                     [this](const auto& now, const auto& wanted, auto, auto& out) {
+                                       return turn(now, wanted, out);
+                                     });
+  subscribe<sensor_msgs::NavSatFix>(topics::kPilotPosition,
+                                    [this](const auto& now, const auto& wanted, auto, auto& out) {
+                                      return pilotAt(now, wanted, out);
+                                    });
+  subscribe<BlueyeMessage>(topics::kControlIn, [this](const auto& now, const auto& wanted, auto,
+                                                      auto& out) { return raw(now, wanted, out); });
+}
+
+// Without tcpNoDelay small messages wait up to 40 ms for each other.
+template <class Message, class Function>
+void Input::subscribe(const char* topic, Function take) {
+  const bool moves = topic == topics::kCmdVel || topic == topics::kCmdMotion;
+  Mailbox& mailbox = moves ? *motion_ : mailboxes_.emplace_back();
+  ros::SubscribeOptions options;
+  options.template initByFullCallbackType<const ros::MessageEvent<const Message>&>(
+      topic, kNewestOnly,
+      [this, take, topic, &mailbox](const ros::MessageEvent<const Message>& event) {
+        const auto received = std::chrono::steady_clock::now() - waited(event.getReceiptTime());
+        post(mailbox, [this, take, topic, received, message = event.getConstMessage()](
+                          const vehicle::Now& now, BlueyeOutput& out) {
+          warn(now, topic, take(now, *message, received, out));
+        });
+      });
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  subscribers_.push_back(node_.subscribe(options));
+}
+
+void Input::post(Mailbox& mailbox, Task task) {
+  {
+    const std::lock_guard<std::mutex> lock(mailbox.mutex);
+    if (std::exchange(mailbox.newest, std::move(task))) return;  // somebody is on the way already
+  }
+  post_([&mailbox](const vehicle::Now& now, BlueyeOutput& out) {
+    Task newest;
+    {
+      const std::lock_guard<std::mutex> lock(mailbox.mutex);
+      newest = std::exchange(mailbox.newest, nullptr);
+    }
+    newest(now, out);
+  });
+}
+
+void Input::warn(const vehicle::Now& now, const char* topic, const std::string& refusal) {
+  if (refusal.empty() || now.steady < next_warning_) return;
+  next_warning_ = now.steady + kWarnAtMostEvery;
+  ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
+}
+
+std::string Input::move(const vehicle::Now& now, const ConvertedMotion& wanted,
+                        vehicle::SteadyTime received) {
+  if (const auto* refusal = std::get_if<std::string>(&wanted)) {
+    session_.countRefusedCommands(1);
+    return *refusal;
+  }
+  return session_.command(now, std::get<vehicle::DroneCommand>(wanted), received);
+}
+
+template <class Message>
+std::string Input::control(const vehicle::Now& now, const Message& message, BlueyeOutput& out) {
+  std::string refusal;
+  session::ConfirmedControls::Control wanted;
+  wanted.type = message.GetTypeName();
+  wanted.payload = message.SerializeAsString();
+  wanted.respond = [&refusal](const std::string& reason) { refusal = reason; };
+  session_.control(now, std::move(wanted), out);
+  return refusal;
+}
+
+template <class Message>
+std::string Input::level(const vehicle::Now& now, const char* type, double value,
+                         BlueyeOutput& out) {
+  std::string refusal = outside("data", value, 0.0, 1.0);
+  if (refusal.empty()) refusal = session_.refusal();
+  if (!refusal.empty()) return refusal;
+  Message message;
+  message.mutable_lights()->set_value(static_cast<float>(value));
+  session::ConfirmedControls::Control wanted;
+  wanted.type = message.GetTypeName();
+  wanted.payload = message.SerializeAsString();
+  wanted.repeat = true;
+  wanted.confirmed_by = protocol::BlueyeCatalogue::fullName(type);
+  wanted.shows = [value](std::string_view payload) {
+    constexpr double kClose = 0.02;
+    pb::LightsTel told;  // GuestPortLightsTel is the same
+    return told.ParseFromArray(payload.data(), static_cast<int>(payload.size())) &&
+           std::abs(told.lights().value() - value) < kClose;
+  };
+  session_.control(now, std::move(wanted), out);
+  return {};
+}
+
+std::string Input::turn(const vehicle::Now& now, const sensor_msgs::JointState& joints,
+                        BlueyeOutput& out) {
+  if (joints.name.size() != joints.position.size()) {
+    return "it has " + std::to_string(joints.name.size()) + " names and " +
+           std::to_string(joints.position.size()) + " positions; as many of both are accepted";
+  }
+  for (std::size_t i = 0; i < joints.name.size(); ++i) {
+    const std::string refusal = turn(now, joints.name[i], joints.position[i], out);
+    if (!refusal.empty()) return refusal;
+  }
+  return {};
+}
+
+std::string Input::turn(const vehicle::Now& now, const std::string& joint, double position_rad,
+                        BlueyeOutput& out) {
+  const Conventions& how = parameters_.publisher.navigation.conventions;
+  if (joint == "multibeam_tilt") {
+    const std::string refusal = outside("position", position_rad, -M_PI_2, M_PI_2);
+    if (!refusal.empty()) return refusal;
+    const double up_deg = (how.multibeam_tilt_up ? -1.0 : 1.0) * position_rad * 180.0 / M_PI;
+    pb::MultibeamServoCtrl message;
+    message.mutable_servo()->set_angle(
+        static_cast<float>(std::clamp(up_deg, -kMultibeamLimit_deg, kMultibeamLimit_deg)));
+    return control(now, message, out);
+  }
+  int port = 0;
+  if (std::sscanf(joint.c_str(), "guest_port_%d_servo", &port) != 1 || port < 1 || port > 6) {
+    return "joint is '" + joint + "'; multibeam_tilt and guest_port_1_servo to 6 are accepted";
+  }
+  const std::string refusal =
+      outside("position", position_rad, how.servo_min_rad, how.servo_max_rad);
+  if (!refusal.empty()) return refusal;
+  const double share = (position_rad - how.servo_min_rad) / (how.servo_max_rad - how.servo_min_rad);
+  pb::GenericServoCtrl message;
+  message.mutable_servo()->set_value(static_cast<float>(share));
+  message.mutable_servo()->set_guest_port_number(static_cast<pb::GuestPortNumber>(port));
+  return control(now, message, out);
+}
+
+std::string Input::pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix& fix,
+                           BlueyeOutput& out) {
+  const bool has_fix = fix.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX;
+  if (!has_fix || now.steady < next_pilot_) return {};
+  std::string refusal = outside("latitude", fix.latitude, -90.0, 90.0);
+  if (refusal.empty()) refusal = outside("longitude", fix.longitude, -180.0, 180.0);
+  if (!refusal.empty()) return refusal;
+  next_pilot_ = now.steady + kPilotAtMostEvery;
+  pb::PilotGPSPositionCtrl message;
+  message.mutable_position()->set_latitude(fix.latitude);
+  message.mutable_position()->set_longitude(fix.longitude);
+  return control(now, message, out);
+}
+
+std::string Input::raw(const vehicle::Now& now, const BlueyeMessage& message, BlueyeOutput& out) {
+  const std::string bytes{message.data.begin(), message.data.end()};
+  // Through JSON and back: so a NaN is found, and bytes that are not of the type.
+  const auto json = catalogue_.toJson(message.type, bytes);
+  const auto checked = json.ok ? catalogue_.fromJson(message.type, json.text) : json;
+  if (!checked.ok) return checked.text;
+  std::string refusal;
+  session::ConfirmedControls::Control wanted;
+  wanted.type = protocol::BlueyeCatalogue::fullName(message.type);
+  wanted.payload = bytes;
+  wanted.respond = [&refusal](const std::string& reason) { refusal = reason; };
+  session_.control(now, std::move(wanted), out);
+  return refusal;
+}
+
+}  // namespace frontseat_driver::ros_layer::blueye_layer

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <frontseat_driver/BlueyeMessage.h>
+#include <frontseat_driver/Gripper.h>
+#include <frontseat_driver/MotionInput.h>
+#include <geometry_msgs/Twist.h>
+#include <ros/message_event.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
+#include <sensor_msgs/JointState.h>
+#include <sensor_msgs/NavSatFix.h>
+#include <std_msgs/Float64.h>
+
+#include <list>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "blueye/parameters.h"
+#include "blueye/post.h"
+
+namespace frontseat_driver::ros_layer::blueye_layer {
+
+/// Takes commands from topics to the session. Of each topic only the newest message waits, however
+/// fast they come. What cannot be used is refused whole, with one throttled warning.
+class Input {
+ public:
+  /// `name` stands before log lines. Session and catalogue must outlive every posted task.
+  Input(ros::NodeHandle node, std::string name, const Parameters& parameters,
+        session::BlueyeSession& session, const protocol::BlueyeCatalogue& catalogue, Post post);
+
+  /// Takes no more commands. Tasks posted before may still run.
+  void close() { subscribers_.clear(); }
+
+ private:
+  /// The newest task that the session's thread has not taken yet.
+  struct Mailbox {
+    std::mutex mutex;
+    Task newest;
+  };
+
+  template <class Message, class Function>
+  void subscribe(const char* topic, Function take);
+  void post(Mailbox& mailbox, Task task);
+
+  // On the session's thread; each returns why it was refused, or nothing.
+  std::string move(const vehicle::Now& now, const ConvertedMotion& wanted,
+                   vehicle::SteadyTime received);
+  template <class Message>
+  std::string level(const vehicle::Now& now, const char* type, double value,
+                    session::BlueyeOutput& out);
+  std::string turn(const vehicle::Now& now, const sensor_msgs::JointState& joints,
+                   session::BlueyeOutput& out);
+  std::string turn(const vehicle::Now& now, const std::string& joint, double position_rad,
+                   session::BlueyeOutput& out);
+  std::string pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix& fix,
+                      session::BlueyeOutput& out);
+  std::string raw(const vehicle::Now& now, const BlueyeMessage& message,
+                  session::BlueyeOutput& out);
+  template <class Message>
+  std::string control(const vehicle::Now& now, const Message& message, session::BlueyeOutput& out);
+  void warn(const vehicle::Now& now, const char* topic, const std::string& refusal);
+
+  ros::NodeHandle node_;
+  const std::string name_;
+  const Parameters parameters_;
+  session::BlueyeSession& session_;
+  const protocol::BlueyeCatalogue& catalogue_;
+  const Post post_;
+  std::list<Mailbox> mailboxes_;  ///< one for each topic
+  Mailbox* motion_ = nullptr;     ///< of cmd_vel and cmd_motion together
+  vehicle::SteadyTime next_warning_{};
+  vehicle::SteadyTime next_pilot_{};
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace frontseat_driver::ros_layer::blueye_layer

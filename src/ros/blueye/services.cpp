@@ -1,0 +1,532 @@
+#include "blueye/services.h"
+
+#include <blueye/control.pb.h>
+#include <blueye/req_rep.pb.h>
+#include <frontseat_driver/Abort.h>
+#include <frontseat_driver/BlueyeControl.h>
+#include <frontseat_driver/BlueyeRequest.h>
+#include <frontseat_driver/GetMission.h>
+#include <frontseat_driver/LoadMission.h>
+#include <frontseat_driver/Record.h>
+#include <frontseat_driver/ResetPosition.h>
+#include <frontseat_driver/SetFloat.h>
+#include <frontseat_driver/SetHeadingMode.h>
+#include <frontseat_driver/SetRate.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <future>
+#include <memory>
+#include <utility>
+
+#include "blueye/topics.h"
+
+namespace frontseat_driver::ros_layer::blueye_layer {
+
+namespace {
+
+using namespace std::chrono_literals;
+using session::BlueyeOutput;
+
+// The session answers by its deadlines; this is for its thread being held up.
+constexpr auto kGrace = 200ms;
+// How soon a waiting call notices that the driver is stopping.
+constexpr auto kLook = 20ms;
+constexpr auto kControlShown = 2s;
+constexpr int kMostInstructions = 50;
+
+constexpr const char* kStopping = "the driver is stopping";
+
+template <class Message>
+bool parse(std::string_view payload, Message& message) {
+  return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
+}
+
+std::string nameOf(const std::string& type) { return protocol::BlueyeCatalogue::fullName(type); }
+
+std::function<bool(std::string_view)> missionIs(pb::MissionState state) {
+  return [state](std::string_view payload) {
+    pb::MissionStatusTel told;
+    return parse(payload, told) && told.mission_status().state() == state;
+  };
+}
+
+std::function<bool(std::string_view)> calibrating(bool wanted) {
+  return [wanted](std::string_view payload) {
+    pb::CalibrationStateTel told;
+    const bool resting = parse(payload, told) && told.calibration_state().status() ==
+                                                     pb::CalibrationState::STATUS_NOT_CALIBRATING;
+    return resting != wanted;
+  };
+}
+
+template <class Response>
+auto fillJson(Response& response, const std::string& type, const std::string& json, int)
+    -> decltype(response.type, void()) {
+  response.type = type;
+  response.json = json;
+}
+template <class Response>
+auto fillJson(Response& response, const std::string&, const std::string& json, long)
+    -> decltype(response.json, void()) {
+  response.json = json;
+}
+template <class Response>
+void fillJson(Response&, const std::string&, const std::string&, ...) {}
+
+/// An instruction that does not say whether the mission goes on after it shall let it go on.
+std::string withAutoContinue(const std::string& json, pb::Mission& mission) {
+  google::protobuf::Struct given;
+  if (!google::protobuf::util::JsonStringToMessage(json, &given).ok())
+    return "it is no JSON object";
+  const auto instructions = given.fields().find("instructions");
+  for (int i = 0; i < mission.instructions_size(); ++i) {
+    const auto& fields = instructions->second.list_value().values(i).struct_value().fields();
+    const bool told = fields.count("auto_continue") != 0 || fields.count("autoContinue") != 0;
+    if (!told) mission.mutable_instructions(i)->set_auto_continue(true);
+  }
+  return {};
+}
+
+}  // namespace
+
+Services::Services(ros::NodeHandle node, const Parameters& parameters,
+                   session::BlueyeSession& session, const Publisher& publisher,
+                   const protocol::BlueyeCatalogue& catalogue, Post post)
+    : node_(std::move(node)),
+      timeout_(parameters.session.request_timeout),
+      control_timeout_(parameters.session.control_timeout),
+      session_(session),
+      publisher_(publisher),
+      catalogue_(catalogue),
+      post_(std::move(post)) {
+  addAuthority();
+  addControllers();
+  addTriggers();
+  addMissions();
+  addSettings();
+  addPassthrough();
+}
+
+void Services::close() {
+  closing_ = true;
+  threads_.close();
+  urgent_.close();
+  servers_.clear();
+}
+
+template <class Service>
+void Services::advertise(const char* name, std::function<Answer(typename Service::Request&)> serve,
+                         bool urgent) {
+  ros::AdvertiseServiceOptions options = ros::AdvertiseServiceOptions::create<Service>(
+      name,
+      [serve = std::move(serve)](typename Service::Request& request,
+                                 typename Service::Response& response) {
+        const Answer answer = serve(request);
+        response.success = answer.success;
+        response.message = answer.message;
+        fillJson(response, answer.type, answer.json, 0);
+        return true;
+      },
+      ros::VoidConstPtr{}, urgent ? &urgent_ : &threads_);
+  servers_.push_back(node_.advertiseService(options));
+}
+
+Services::Answer Services::ask(Ask task) const { return ask(std::move(task), timeout_); }
+
+Services::Answer Services::ask(Ask task, std::chrono::milliseconds timeout) const {
+  // Shared with the task, which may come to run after the wait has ended.
+  const auto promise = std::make_shared<std::promise<Answer>>();
+  std::future<Answer> answer = promise->get_future();
+  const auto expiry = std::chrono::steady_clock::now() + timeout;
+  // What the caller has been told is late must not be done after all.
+  post_([task = std::move(task), promise, expiry](const vehicle::Now& now, BlueyeOutput& out) {
+    if (std::chrono::steady_clock::now() >= expiry) {
+      return promise->set_value({false, "the driver was held up; nothing was done", {}, {}});
+    }
+    task(now, out, [promise](const Answer& given) { promise->set_value(given); });
+  });
+  // Requests wait for those before them, so the drone may have several time limits to keep.
+  const auto deadline = expiry + timeout + kGrace;
+  while (answer.wait_for(kLook) != std::future_status::ready) {
+    if (closing_) return {false, kStopping, {}, {}};
+    if (std::chrono::steady_clock::now() >= deadline) {
+      return {false, "the drone did not answer in time", {}, {}};
+    }
+  }
+  try {
+    return answer.get();
+  } catch (const std::future_error&) {  // the task went with the driver's thread
+    return {false, kStopping, {}, {}};
+  }
+}
+
+// --- Who commands ---
+
+void Services::addAuthority() {
+  advertise<std_srvs::Trigger>(
+      topics::kStop,
+      [this](auto&) {
+        return ask([this](const auto& now, auto& out, const Respond& respond) {
+          respond({true, session_.stop(now, out), {}, {}});
+        });
+      },
+      true);
+  advertise<Abort>(
+      topics::kAbort,
+      [this](auto&) {
+        return ask([this](const auto& now, auto& out, const Respond& respond) {
+          respond({true, session_.abort(now, out), {}, {}});
+        });
+      },
+      true);
+  advertise<std_srvs::SetBool>(
+      topics::kEnableCommands,
+      [this](std_srvs::SetBoolRequest& gate) {
+        return ask([this, open = gate.data != 0](const auto& now, auto&, const Respond& respond) {
+          session_.setCommandsEnabled(now, open);
+          respond({true, open ? "the command gate is open" : "the command gate is closed", {}, {}});
+        });
+      },
+      true);
+  const auto relay = [](const Respond& respond) {
+    return [respond](const session::BlueyeSession::Answer& given) {
+      respond({given.success, given.message, {}, {}});
+    };
+  };
+  advertise<std_srvs::Trigger>(topics::kTakeControl, [this, relay](auto&) {
+    return ask(
+        [this, relay](const auto& now, auto& out, const Respond& respond) {
+          session_.takeControl(now, relay(respond), out);
+        },
+        control_timeout_ + timeout_);
+  });
+  advertise<std_srvs::Trigger>(topics::kReleaseControl, [this, relay](auto&) {
+    return ask([this, relay](const auto& now, auto& out, const Respond& respond) {
+      session_.releaseControl(now, relay(respond), out);
+    });
+  });
+  advertise<std_srvs::Trigger>(topics::kPing, [this](auto&) {
+    const auto asked = std::chrono::steady_clock::now();
+    Answer answer = request(nameOf("PingReq"), {}, timeout_);
+    const std::chrono::duration<double, std::milli> taken =
+        std::chrono::steady_clock::now() - asked;
+    if (answer.success) answer.message = std::to_string(taken.count()) + " ms";
+    return answer;
+  });
+}
+
+// --- What the drone does by itself ---
+
+Services::Answer Services::control(std::string type, std::string payload, const char* confirmed_by,
+                                   Shows shows, bool repeat) const {
+  return ask(
+      [this, type = nameOf(type), payload = std::move(payload), confirmed_by,
+       shows = std::move(shows), repeat](const auto& now, auto& out, const Respond& respond) {
+        session::ConfirmedControls::Control wanted;
+        wanted.type = type;
+        wanted.payload = payload;
+        wanted.repeat = repeat;
+        if (confirmed_by != nullptr) wanted.confirmed_by = nameOf(confirmed_by);
+        wanted.shows = shows;
+        wanted.timeout = kControlShown;
+        const bool shown = confirmed_by != nullptr;
+        wanted.respond = [respond, shown](const std::string& refusal) {
+          const bool good = refusal.empty();
+          respond({good, good ? (shown ? "the drone shows it" : "sent") : refusal, {}, {}});
+        };
+        session_.control(now, std::move(wanted), out);
+      },
+      kControlShown);
+}
+
+template <class Control>
+void Services::addSwitch(const char* name, bool (pb::ControlMode::*state)() const) {
+  advertise<std_srvs::SetBool>(name, [this, state](std_srvs::SetBoolRequest& wanted) {
+    const bool on = wanted.data != 0;
+    Control message;
+    message.mutable_state()->set_enabled(on);
+    const auto shows = [state, on](std::string_view payload) {
+      pb::ControlModeTel told;
+      return parse(payload, told) && (told.state().*state)() == on;
+    };
+    return control(message.GetTypeName(), message.SerializeAsString(), "ControlModeTel", shows,
+                   true);
+  });
+}
+
+void Services::addControllers() {
+  addSwitch<pb::AutoDepthCtrl>(topics::kAutoDepth, &pb::ControlMode::auto_depth);
+  addSwitch<pb::AutoHeadingCtrl>(topics::kAutoHeading, &pb::ControlMode::auto_heading);
+  addSwitch<pb::AutoAltitudeCtrl>(topics::kAutoAltitude, &pb::ControlMode::auto_altitude);
+  addSwitch<pb::StationKeepingCtrl>(topics::kStationKeeping, &pb::ControlMode::station_keeping);
+  addSwitch<pb::WeatherVaningCtrl>(topics::kWeatherVaning, &pb::ControlMode::weather_vaning);
+  addSwitch<pb::AutoPilotSurgeYawCtrl>(topics::kAutoPilotSurgeYaw,
+                                       &pb::ControlMode::auto_pilot_surge_yaw);
+  addSwitch<pb::AutoPilotHeaveCtrl>(topics::kAutoPilotHeave, &pb::ControlMode::auto_pilot_heave);
+  advertise<std_srvs::SetBool>(topics::kSetTiltStabilization,
+                               [this](std_srvs::SetBoolRequest& wanted) {
+                                 const bool on = wanted.data != 0;
+                                 pb::TiltStabilizationCtrl message;
+                                 message.mutable_state()->set_enabled(on);
+                                 const auto shows = [on](std::string_view payload) {
+                                   pb::TiltStabilizationTel told;
+                                   return parse(payload, told) && told.state().enabled() == on;
+                                 };
+                                 return control(message.GetTypeName(), message.SerializeAsString(),
+                                                "TiltStabilizationTel", shows, true);
+                               });
+  advertise<std_srvs::SetBool>(topics::kGuestPorts, [this](std_srvs::SetBoolRequest& wanted) {
+    const bool on = wanted.data != 0;
+    return control(on ? "ActivateGuestPortsCtrl" : "DeactivateGuestPortsCtrl", {}, nullptr, {},
+                   false);
+  });
+}
+
+// Sent once: twice might be once too often.
+void Services::addTrigger(const char* name, const char* type, const char* confirmed_by,
+                          Shows shows) {
+  advertise<std_srvs::Trigger>(name, [this, type, confirmed_by, shows](auto&) {
+    return control(type, {}, confirmed_by, shows, false);
+  });
+}
+
+void Services::addTriggers() {
+  addTrigger(topics::kResetOdometer, "ResetOdometerCtrl", nullptr, {});
+  addTrigger(topics::kCalibrateDvlGyro, "CalibrateDvlGyroCtrl", nullptr, {});
+  addTrigger(topics::kTakePicture, "TakePictureCtrl", nullptr, {});
+  addTrigger(topics::kCalibrationStart, "StartCalibrationCtrl", "CalibrationStateTel",
+             calibrating(true));
+  addTrigger(topics::kCalibrationCancel, "CancelCalibrationCtrl", "CalibrationStateTel",
+             calibrating(false));
+  addTrigger(topics::kCalibrationFinish, "FinishCalibrationCtrl", "CalibrationStateTel",
+             calibrating(false));
+  addTrigger(topics::kMissionRun, "RunMissionCtrl", "MissionStatusTel",
+             missionIs(pb::MISSION_STATE_RUNNING));
+  addTrigger(topics::kMissionPause, "PauseMissionCtrl", "MissionStatusTel",
+             missionIs(pb::MISSION_STATE_PAUSED));
+  addTrigger(topics::kMissionClear, "ClearMissionCtrl", "MissionStatusTel",
+             missionIs(pb::MISSION_STATE_INACTIVE));
+}
+
+// --- Missions ---
+
+void Services::addMissions() {
+  advertise<LoadMission>(topics::kMissionLoad,
+                         [this](LoadMissionRequest& wanted) { return loadMission(wanted.json); });
+  advertise<GetMission>(topics::kMissionGet, [this](auto&) {
+    Answer answer = request(nameOf("GetMissionReq"), {}, timeout_);
+    if (!answer.success) return answer;
+    pb::GetMissionRep reply;
+    if (!parse(answer.json, reply)) return Answer{false, "the reply cannot be read", {}, {}};
+    answer.json = catalogue_.toJson("Mission", reply.mission().SerializeAsString()).text;
+    return answer;
+  });
+}
+
+Services::Answer Services::loadMission(const std::string& text) const {
+  const auto bytes = catalogue_.fromJson("Mission", text);
+  pb::SetMissionReq wanted;
+  if (!bytes.ok || !parse(bytes.text, *wanted.mutable_mission()))
+    return {false, bytes.text, {}, {}};
+  const int instructions = wanted.mission().instructions_size();
+  if (instructions < 1 || instructions > kMostInstructions) {
+    return {false,
+            "instructions are " + std::to_string(instructions) + "; 1 to 50 are accepted",
+            {},
+            {}};
+  }
+  const std::string trouble = withAutoContinue(text, *wanted.mutable_mission());
+  if (!trouble.empty()) return {false, trouble, {}, {}};
+  return ask([this, payload = wanted.SerializeAsString()](const auto& now, auto& out,
+                                                          const Respond& respond) {
+    const std::string refusal = session_.refusal();
+    if (!refusal.empty()) return respond({false, refusal, {}, {}});
+    const auto verdict = std::make_shared<pb::MissionState>(pb::MISSION_STATE_UNSPECIFIED);
+    const auto shows = [verdict](std::string_view told_bytes) {
+      pb::MissionStatusTel told;
+      if (!parse(told_bytes, told)) return false;
+      *verdict = told.mission_status().state();
+      return *verdict == pb::MISSION_STATE_READY ||
+             *verdict == pb::MISSION_STATE_FAILED_TO_LOAD_MISSION;
+    };
+    const auto told = [verdict, respond](const std::string& late) {
+      const bool good = late.empty() && *verdict == pb::MISSION_STATE_READY;
+      respond({good,
+               good           ? "the mission is ready"
+               : late.empty() ? "the drone cannot load it"
+                              : late,
+               {},
+               {}});
+    };
+    BlueyeOutput* const output = &out;
+    const vehicle::Now sent = now;
+    session_.request(
+        now, nameOf("SetMissionReq"), payload, timeout_,
+        [this, shows, told, respond, output, sent](const session::BlueyeReply& reply) {
+          if (!reply.received) return respond({false, reply.reason, {}, {}});
+          session_.await(sent, nameOf("MissionStatusTel"), shows, told, *output);
+        },
+        out);
+  });
+}
+
+// --- Settings ---
+
+void Services::addSettings() {
+  advertise<SetFloat>(topics::kSetWaterDensity, [this](SetFloatRequest& wanted) {
+    const double density_kg_m3 = wanted.data;
+    if (!(density_kg_m3 >= 900.0 && density_kg_m3 <= 1100.0)) {
+      return Answer{false,
+                    "data is " + std::to_string(density_kg_m3) + "; 900 to 1100 kg/m^3 is accepted",
+                    {},
+                    {}};
+    }
+    pb::WaterDensityCtrl message;
+    message.mutable_density()->set_value(static_cast<float>(density_kg_m3));
+    Answer answer = control(message.GetTypeName(), message.SerializeAsString(), nullptr, {}, false);
+    if (!answer.success) return answer;
+    return ask([this, density_kg_m3](const auto&, auto&, const Respond& respond) {
+      session_.setWaterDensity(density_kg_m3);
+      respond({true, "sent, and sent again whenever control is gained", {}, {}});
+    });
+  });
+  advertise<SetHeadingMode>(topics::kSetHeadingMode, [this](SetHeadingModeRequest& wanted) {
+    if (wanted.heading_mode != SetHeadingModeRequest::COMPASS &&
+        wanted.heading_mode != SetHeadingModeRequest::GYRO) {
+      return Answer{false,
+                    "heading_mode is " + std::to_string(wanted.heading_mode) +
+                        "; 1 (COMPASS) and 2 (GYRO) are accepted",
+                    {},
+                    {}};
+    }
+    pb::SetHeadingModeReq message;
+    message.set_heading_mode(static_cast<pb::HeadingMode>(wanted.heading_mode));
+    return request(message.GetTypeName(), message.SerializeAsString(), timeout_);
+  });
+  advertise<SetRate>(topics::kSetRate, [this](SetRateRequest& wanted) {
+    return ask([this, wanted](const auto& now, auto& out, const Respond& respond) {
+      session_.setRate(
+          now, wanted.type, wanted.rate,
+          [respond](const auto& given) {
+            respond({given.success, given.message, {}, {}});
+          },
+          out);
+    });
+  });
+  advertise<ResetPosition>(topics::kResetPosition, [this](ResetPositionRequest& wanted) {
+    const bool in_range = wanted.heading_source >= 1 && wanted.heading_source <= 2 &&
+                          wanted.coordinate_source >= 1 && wanted.coordinate_source <= 3 &&
+                          wanted.heading_mode >= 1 && wanted.heading_mode <= 2 &&
+                          std::isfinite(wanted.yaw) && std::abs(wanted.latitude) <= 90.0 &&
+                          std::abs(wanted.longitude) <= 180.0;
+    if (!in_range) {
+      return Answer{
+          false, "a value is out of range; see rossrv show frontseat_driver/ResetPosition", {}, {}};
+    }
+    pb::ResetPositionCtrl message;
+    pb::ResetPositionSettings& settings = *message.mutable_settings();
+    settings.set_heading_source_during_reset(static_cast<pb::HeadingSource>(wanted.heading_source));
+    settings.set_manual_heading(static_cast<float>(headingOf_deg(wanted.yaw)));
+    settings.set_reset_coordinate_source(
+        static_cast<pb::ResetCoordinateSource>(wanted.coordinate_source));
+    settings.mutable_reset_coordinate()->set_latitude(wanted.latitude);
+    settings.mutable_reset_coordinate()->set_longitude(wanted.longitude);
+    settings.set_heading_mode(static_cast<pb::HeadingMode>(wanted.heading_mode));
+    constexpr int kJustReset_s = 3;
+    const auto shows = [](std::string_view payload) {
+      pb::PositionEstimateTel told;
+      return parse(payload, told) && told.has_position_estimate() &&
+             told.position_estimate().time_since_reset_sec() <= kJustReset_s;
+    };
+    return control(message.GetTypeName(), message.SerializeAsString(), "PositionEstimateTel", shows,
+                   false);
+  });
+  advertise<Record>(topics::kRecord, [this](RecordRequest& wanted) {
+    return ask([this, wanted](const auto& now, auto& out, const Respond& respond) {
+      const auto& state = publisher_.recordState();
+      const bool keeps = wanted.main == RecordRequest::KEEP ||
+                         wanted.guestport == RecordRequest::KEEP ||
+                         wanted.multibeam == RecordRequest::KEEP;
+      if (!state && keeps) {
+        return respond(
+            {false, "the drone has not told yet what it records; nothing can be kept", {}, {}});
+      }
+      const auto on = [](std::uint8_t choice, bool present) {
+        return choice == RecordRequest::KEEP ? present : choice == RecordRequest::START;
+      };
+      const pb::RecordState present = state.value_or(pb::RecordState{});
+      pb::RecordCtrl message;
+      message.mutable_record_on()->set_main(on(wanted.main, present.main_is_recording()));
+      message.mutable_record_on()->set_guestport(
+          on(wanted.guestport, present.guestport_is_recording()));
+      message.mutable_record_on()->set_multibeam(
+          on(wanted.multibeam, present.multibeam_is_recording()));
+      session::ConfirmedControls::Control record;
+      record.type = message.GetTypeName();
+      record.payload = message.SerializeAsString();
+      record.confirmed_by = nameOf("RecordStateTel");
+      record.shows = [target = message.record_on()](std::string_view payload) {
+        pb::RecordStateTel told;
+        return parse(payload, told) && told.record_state().main_is_recording() == target.main() &&
+               told.record_state().guestport_is_recording() == target.guestport() &&
+               told.record_state().multibeam_is_recording() == target.multibeam();
+      };
+      record.respond = [respond](const std::string& refusal) {
+        respond({refusal.empty(), refusal.empty() ? "the drone shows it" : refusal, {}, {}});
+      };
+      session_.control(now, std::move(record), out);
+    });
+  });
+}
+
+// --- Everything else ---
+
+Services::Answer Services::request(const std::string& type, const std::string& payload,
+                                   std::chrono::milliseconds timeout) const {
+  return ask(
+      [this, type, payload, timeout](const auto& now, auto& out, const Respond& respond) {
+        session_.request(
+            now, type, payload, timeout,
+            [respond](const session::BlueyeReply& reply) {
+              if (!reply.received) return respond({false, reply.reason, {}, {}});
+              // The bytes, for the caller to read.
+              respond({true, "done", std::string{reply.type}, std::string{reply.payload}});
+            },
+            out);
+      },
+      timeout);
+}
+
+Services::Answer Services::json(Answer reply) const {
+  if (!reply.success) return reply;
+  const auto text = catalogue_.toJson(reply.type, reply.json);
+  reply.json = text.text;
+  if (text.ok) return reply;
+  return {false, "answered, but " + text.text, reply.type, {}};
+}
+
+void Services::addPassthrough() {
+  advertise<BlueyeRequest>(topics::kRequest, [this](BlueyeRequestRequest& wanted) {
+    const auto bytes = catalogue_.fromJson(wanted.type, wanted.json);
+    if (!bytes.ok) return Answer{false, bytes.text, {}, {}};
+    const bool in_range = wanted.timeout >= 0.0 && wanted.timeout <= 60.0;
+    if (!in_range) {
+      return Answer{false,
+                    "timeout is " + std::to_string(wanted.timeout) + "; 0 to 60 s is accepted",
+                    {},
+                    {}};
+    }
+    const auto given = std::chrono::milliseconds{static_cast<int>(wanted.timeout * 1000.0)};
+    return json(request(nameOf(wanted.type), bytes.text, given > 0ms ? given : timeout_));
+  });
+  advertise<BlueyeControl>(topics::kSendControl, [this](BlueyeControlRequest& wanted) {
+    const auto bytes = catalogue_.fromJson(wanted.type, wanted.json);
+    if (!bytes.ok) return Answer{false, bytes.text, {}, {}};
+    return control(wanted.type, bytes.text, nullptr, {}, false);
+  });
+}
+
+}  // namespace frontseat_driver::ros_layer::blueye_layer

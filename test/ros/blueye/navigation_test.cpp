@@ -1,0 +1,165 @@
+// What several messages together tell: odometry, resets, freshness.
+
+#include "blueye/navigation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace frontseat_driver::ros_layer::blueye_layer {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double kClose = 1e-5;
+constexpr double kUnknown = 1e6;
+
+class Together : public testing::Test {
+ protected:
+  Together() { now_.steady += 1h; }
+
+  void attitude(float roll_deg, float pitch_deg, float yaw_deg) {
+    pb::AttitudeTel told;
+    told.mutable_attitude()->set_roll(roll_deg);
+    told.mutable_attitude()->set_pitch(pitch_deg);
+    told.mutable_attitude()->set_yaw(yaw_deg);
+    navigation_.take(told, now_);
+  }
+  void depth(float depth_m) {
+    pb::DepthTel told;
+    told.mutable_depth()->set_value(depth_m);
+    navigation_.take(told, now_);
+  }
+  pb::PositionEstimate& estimate() { return *estimate_.mutable_position_estimate(); }
+  nav_msgs::Odometry odometry() {
+    navigation_.take(estimate_, now_);
+    return navigation_.odometry(now_, ros::Time(1)).value();
+  }
+  void at(float easting_m, float northing_m, int since_reset_s) {
+    estimate().set_is_valid(true);
+    estimate().set_easting(easting_m);
+    estimate().set_northing(northing_m);
+    estimate().set_time_since_reset_sec(since_reset_s);
+  }
+
+  vehicle::Now now_;
+  Navigation navigation_{NavigationOptions{}};
+  pb::PositionEstimateTel estimate_;
+};
+
+TEST_F(Together, NothingComesOfNothing) { EXPECT_FALSE(navigation_.odometry(now_, ros::Time(1))); }
+
+TEST_F(Together, OdometryHasPositionDepthHeadingAndRates) {
+  attitude(0.0F, 0.0F, 10.0F);
+  depth(7.0F);
+  at(4.0F, 3.0F, 1);
+  estimate().set_heading(static_cast<float>(M_PI_2));  // east, by the gyro
+  estimate().set_surge_rate(0.5F);
+  estimate().set_sway_rate(0.25F);
+  estimate().set_yaw_rate(0.125F);
+  estimate().set_accuracy(2.4477F);
+  const auto out = odometry();
+  EXPECT_EQ(out.header.frame_id, "odom");
+  EXPECT_EQ(out.child_frame_id, "base_link");
+  EXPECT_NEAR(out.pose.pose.position.x, 4.0, kClose);
+  EXPECT_NEAR(out.pose.pose.position.y, 3.0, kClose);
+  EXPECT_NEAR(out.pose.pose.position.z, -7.0, kClose);
+  EXPECT_NEAR(out.pose.covariance[0], 1.0, 1e-4);
+  // The position was reckoned with the estimate's heading, so it is the one that fits.
+  EXPECT_NEAR(out.pose.pose.orientation.w, 1.0, kClose);
+  EXPECT_NEAR(out.twist.twist.linear.x, 0.5, kClose);
+  EXPECT_NEAR(out.twist.twist.linear.y, -0.25, kClose);
+  EXPECT_NEAR(out.twist.twist.angular.z, -0.125, kClose);
+  EXPECT_EQ(out.twist.covariance[21], kUnknown);  // no gyro: roll rate not known
+  ASSERT_TRUE(navigation_.transform(out));
+}
+
+TEST_F(Together, AnEstimateThatIsNotValidGivesAttitudeAndDepthAlone) {
+  attitude(0.0F, 0.0F, 90.0F);
+  depth(2.0F);
+  estimate().set_easting(50.0F);
+  estimate().set_surge_rate(1.0F);
+  const auto out = odometry();
+  EXPECT_EQ(out.pose.pose.position.x, 0.0);
+  EXPECT_EQ(out.pose.covariance[0], kUnknown);
+  EXPECT_NEAR(out.pose.pose.position.z, -2.0, kClose);
+  EXPECT_NEAR(out.pose.pose.orientation.w, 1.0, kClose);
+  EXPECT_EQ(out.twist.twist.linear.x, 0.0);
+  EXPECT_EQ(out.twist.covariance[0], kUnknown);
+  EXPECT_FALSE(navigation_.transform(out));
+}
+
+TEST_F(Together, WhatIsOldIsNotFresh) {
+  attitude(5.0F, 5.0F, 5.0F);
+  depth(2.0F);
+  now_.steady += 3s;
+  at(0.0F, 0.0F, 1);
+  const auto out = odometry();
+  EXPECT_EQ(out.pose.covariance[14], kUnknown);
+  EXPECT_EQ(out.pose.covariance[21], kUnknown);
+  EXPECT_LT(out.pose.covariance[35], 1.0);  // the estimate's own heading
+}
+
+TEST_F(Together, VerticalSpeedComesFromDepthWhereThereIsNoDvl) {
+  depth(1.0F);
+  now_.steady += 500ms;
+  depth(1.25F);
+  at(0.0F, 0.0F, 1);
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, kClose);
+  pb::DvlVelocityTel dvl;
+  dvl.mutable_dvl_velocity()->mutable_velocity()->set_z(0.2);
+  dvl.mutable_dvl_velocity()->add_transducers()->set_beam_valid(true);
+  navigation_.take(dvl, now_);
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.2, kClose);
+  dvl.mutable_dvl_velocity()->set_is_water_tracking(true);
+  navigation_.take(dvl, now_);
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, kClose);
+}
+
+TEST_F(Together, OdometryNeverJumpsWhenTheEstimateIsReset) {
+  at(10.0F, 20.0F, 100);
+  EXPECT_NEAR(odometry().pose.pose.position.x, 10.0, kClose);
+  now_.steady += 100ms;
+  at(0.0F, 0.0F, 0);
+  const auto after = odometry();
+  EXPECT_NEAR(after.pose.pose.position.x, 10.0, kClose);
+  EXPECT_NEAR(after.pose.pose.position.y, 20.0, kClose);
+  now_.steady += 1s;
+  at(1.0F, 0.0F, 1);
+  EXPECT_NEAR(odometry().pose.pose.position.x, 11.0, kClose);
+}
+
+TEST_F(Together, AStepTooLargeGoesIntoTheMap) {
+  at(0.0F, 0.0F, 1);
+  estimate().mutable_global_position()->set_latitude(63.0);
+  estimate().mutable_global_position()->set_longitude(10.0);
+  odometry();
+  EXPECT_TRUE(navigation_.mapMoved());
+  EXPECT_FALSE(navigation_.mapMoved());
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.x, 0.0, kClose);
+  now_.steady += 100ms;
+  at(30.0F, 0.0F, 1);
+  estimate().clear_global_position();
+  EXPECT_NEAR(odometry().pose.pose.position.x, 0.0, kClose);
+  EXPECT_TRUE(navigation_.mapMoved());
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.x, 30.0, kClose);
+}
+
+TEST_F(Together, ImuHasTheFreshAttitudeOrNone) {
+  pb::CalibratedImuTel told;
+  told.mutable_imu()->mutable_gyroscope()->set_z(0.5);
+  navigation_.take(told, now_);
+  EXPECT_EQ(navigation_.imu(now_, ros::Time(1)).orientation_covariance[0], -1.0);
+  attitude(0.0F, 0.0F, 90.0F);
+  const auto out = navigation_.imu(now_, ros::Time(1));
+  EXPECT_NEAR(out.orientation.w, 1.0, kClose);
+  EXPECT_GT(out.orientation_covariance[0], 0.0);
+  EXPECT_NEAR(out.angular_velocity.z, -0.5, kClose);
+  EXPECT_EQ(out.linear_acceleration_covariance[0], -1.0);
+  EXPECT_TRUE(navigation_.hasImu(now_));
+  navigation_.forget();
+  EXPECT_FALSE(navigation_.hasImu(now_));
+}
+
+}  // namespace
+}  // namespace frontseat_driver::ros_layer::blueye_layer

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+"""A record of blueye/telemetry, message by message: what it gives, and that nothing is ever sent."""
+
+import struct
+import unittest
+
+import rospy
+import rostest
+from frontseat_driver.msg import BlueyeMessage, ControlStatus, LinkStatus
+from frontseat_driver.srv import BlueyeRequest, BlueyeControl
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu
+from std_srvs.srv import Trigger
+
+from fake_vehicle import wait_until
+
+PACKAGE = "blueye.protocol."
+
+
+def field(number, kind, content):
+    """One field of a protobuf message: kind 0 varint, 2 bytes, 5 float."""
+    return bytes([number << 3 | kind]) + content
+
+
+def number(index, value):
+    return field(index, 5, struct.pack("<f", value))
+
+
+def inner(index, content):
+    return field(index, 2, bytes([len(content)]) + content)
+
+
+DEPTH = inner(1, number(1, 10.0))
+ATTITUDE = inner(1, number(3, 90.0))                       # yaw: bow to the east
+ESTIMATE = inner(1, number(1, 3.0) + number(2, 4.0) + number(3, 1.5707964) +
+                 number(4, 0.5) + field(9, 0, b"\x01"))    # northing, easting, heading, surge, valid
+
+
+class Heard:
+    """The messages of one topic."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=100)
+
+
+def until(claim):
+    return wait_until(claim, "the driver")
+
+
+class BlueyeReplay(unittest.TestCase):
+    def setUp(self):
+        self.record = rospy.Publisher("blueye/replay", BlueyeMessage, queue_size=100)
+        self.assertTrue(until(lambda: self.record.get_num_connections() > 0))
+
+    def play(self, name, data, stamp):
+        message = BlueyeMessage(type=PACKAGE + name, data=data)
+        message.header.stamp = rospy.Time(stamp)
+        self.record.publish(message)
+
+    def heard(self, topic, kind):
+        heard = Heard(topic, kind)
+        self.assertTrue(until(lambda: heard.subscriber.get_num_connections() > 0), topic)
+        return heard
+
+    def test_a_record_gives_what_the_dive_gave(self):
+        raw = self.heard("blueye/telemetry", BlueyeMessage)
+        depth = self.heard("depth", PoseWithCovarianceStamped)
+        odom = self.heard("odom", Odometry)
+        imu = self.heard("imu/data", Imu)
+        self.play("DepthTel", DEPTH, 1000)
+        self.play("AttitudeTel", ATTITUDE, 1001)
+        self.play("PositionEstimateTel", ESTIMATE, 1002)
+        self.play("TeleportTel", b"\x01\x02\x03", 1003)
+        self.assertTrue(until(lambda: len(raw.messages) >= 4))
+        self.assertEqual([PACKAGE + name for name in
+                          ("DepthTel", "AttitudeTel", "PositionEstimateTel", "TeleportTel")],
+                         [message.type for message in raw.messages])
+        self.assertEqual(b"\x01\x02\x03", raw.messages[3].data)
+        self.assertTrue(until(lambda: depth.messages and odom.messages and imu.messages))
+        self.assertAlmostEqual(-10.0, depth.messages[0].pose.pose.position.z)
+        self.assertEqual(1000, depth.messages[0].header.stamp.to_sec())
+        pose = odom.messages[0].pose.pose
+        self.assertAlmostEqual(4.0, pose.position.x, 5)
+        self.assertAlmostEqual(3.0, pose.position.y, 5)
+        self.assertAlmostEqual(-10.0, pose.position.z, 5)
+        self.assertAlmostEqual(1.0, abs(pose.orientation.w), 5)
+        self.assertAlmostEqual(0.5, odom.messages[0].twist.twist.linear.x, 5)
+        self.assertAlmostEqual(1.0, abs(imu.messages[0].orientation.w), 5)
+
+    def test_nothing_is_sent_while_a_record_is_played(self):
+        control = self.heard("control", ControlStatus)
+        sent = self.heard("blueye/control_out", BlueyeMessage)
+        commands = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+        self.assertTrue(until(lambda: commands.get_num_connections() > 0))
+        command = Twist()
+        command.linear.x = 0.5
+        commands.publish(command)
+        for name in ("take_control", "release_control"):
+            rospy.wait_for_service(name, 30.0)
+            answer = rospy.ServiceProxy(name, Trigger)()
+            self.assertFalse(answer.success)
+            self.assertIn("record", answer.message)
+        answer = rospy.ServiceProxy("blueye/request", BlueyeRequest)(type="GetBatteryReq")
+        self.assertFalse(answer.success)
+        answer = rospy.ServiceProxy("blueye/send_control", BlueyeControl)(
+            type="LightsCtrl", json='{"lights": {"value": 0.5}}')
+        self.assertFalse(answer.success)
+        self.assertTrue(until(lambda: control.messages))
+        self.assertFalse(control.messages[-1].commanding)
+        self.assertEqual([], sent.messages)
+
+    def test_bad_bytes_cost_that_message_alone(self):
+        depth = self.heard("depth", PoseWithCovarianceStamped)
+        link = self.heard("link", LinkStatus)
+        self.play("DepthTel", b"\xff\xff", 2000)
+        self.play("DepthTel", DEPTH, 2001)
+        self.assertTrue(until(lambda: depth.messages))
+        self.assertEqual(2001, depth.messages[0].header.stamp.to_sec())
+        self.play("DepthTel", DEPTH, 2002)
+
+        def counted():
+            self.play("DepthTel", DEPTH, 2003)  # a second of the record lets the link be told
+            return link.messages and link.messages[-1].malformed > 0
+
+        self.assertTrue(until(counted))
+
+
+if __name__ == "__main__":
+    rospy.init_node("blueye_replay_test")
+    rostest.rosrun("frontseat_driver", "blueye_replay", BlueyeReplay)
