@@ -1,35 +1,72 @@
-"""Runs the tests that CMake knows and adds up the cases that they report.
+"""Runs the tests that CMake knows, two at a time, and adds up the cases that they report.
 
 A test program that crashes, hangs, or reports nothing counts as one failed case, never as none.
 A rostest keeps time by the clock on the wall, with several processes: on a computer that was just
-then held up it may fail without a fault. One that fails is run once more, which is said and shown;
-only what it reports then counts. Everything else has one try.
+then held up it may fail without a fault. One that fails is run once more when all others have
+ended, which is said and shown; only what it reports then counts. Everything else has one try.
 """
 
+import concurrent.futures
 import json
 import os
 import re
+import shlex
 import shutil
+import signal
 import subprocess
 import sys
+import threading
 import time
 import xml.etree.ElementTree as xml
 
 TIMEOUT_S = 300  # for tests that set no TIMEOUT of their own
-WALL_CLOCK = "_ctest_frontseat_driver_rostest_"
+AT_ONCE = 2  # rostests mostly wait
 
 
 class Count:
     def __init__(self):
         self.passed = 0
         self.failed = 0
-        self.failures = []  # test and first line of the reason
+        self.failures = []  # test and last line of the reason
+
+    def add(self, other):
+        self.passed += other.passed
+        self.failed += other.failed
+        self.failures += other.failures
+
+
+class Test:
+    """One program, as CMake wants it run, and where its reports will be."""
+
+    def __init__(self, known):
+        properties = {item["name"]: item["value"] for item in known["properties"]}
+        self.name = re.sub(r"^_ctest_frontseat_driver_", "", known["name"])
+        self.command = known["command"]
+        self.folder = properties["WORKING_DIRECTORY"]
+        self.timeout_s = min(properties.get("TIMEOUT", TIMEOUT_S), TIMEOUT_S * 10)
+        self.timed_by_wall = self.name.startswith("rostest_")
+        words = shlex.split(" ".join(self.command))
+        report = next(word for word in words if word.endswith(".xml"))
+        self.reports = [report]
+        for name in self.rosunit_names(words):
+            self.reports.append(os.path.join(os.path.dirname(report), "rosunit-%s.xml" % name))
+
+    @staticmethod
+    def rosunit_names(words):
+        """Of the programs that a rostest starts, each of which writes a report of its own."""
+        arguments = dict(word.split(":=", 1) for word in words if ":=" in word)
+        for launch in (word for word in words if word.endswith(".test")):
+            with open(launch) as file:
+                for name in re.findall(r'test-name="([^"]+)"', file.read()):
+                    yield re.sub(r"\$\(arg (\w+)\)", lambda arg: arguments[arg.group(1)], name)
 
 
 def known_tests(build_dir, pattern):
     listing = subprocess.check_output(["ctest", "--show-only=json-v1"], cwd=build_dir)
-    names = [test["name"] for test in json.loads(listing.decode())["tests"]]
-    return [name for name in names if re.search(pattern, name)]
+    tests = [Test(known) for known in json.loads(listing.decode())["tests"]]
+    # Those that take longest first.
+    return sorted((test for test in tests if re.search(pattern, test.name)),
+                  key=lambda test: not test.timed_by_wall)
 
 
 def add_report(path, count):
@@ -47,72 +84,84 @@ def add_report(path, count):
             count.passed += 1
 
 
-def read_reports(folder, count):
-    for root, _, names in os.walk(folder):
-        for name in sorted(names):
-            if not name.endswith(".xml"):
-                continue
-            try:
-                add_report(os.path.join(root, name), count)
-            except xml.ParseError as error:
-                print("    %s: %s" % (name, error))
-                count.failed += 1
+def read_reports(test, count):
+    for path in test.reports:
+        if not os.path.isfile(path):
+            continue
+        try:
+            add_report(path, count)
+        except xml.ParseError as error:
+            count.failed += 1
+            count.failures.append("%s: %s: %s" % (test.name, path, error))
 
 
-def run(build_dir, name):
-    count = attempt(build_dir, name)
-    if count.failed and name.startswith(WALL_CLOCK):
-        print("    once more:", flush=True)
-        count = attempt(build_dir, name)
-    return count
+def run_program(test):
+    """Exit code and output; a program that takes too long is ended with all that it started."""
+    program = subprocess.Popen(test.command, cwd=test.folder, stdin=subprocess.DEVNULL,
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               start_new_session=True)
+    try:
+        output, _ = program.communicate(timeout=test.timeout_s)
+    except subprocess.TimeoutExpired:
+        os.killpg(program.pid, signal.SIGKILL)
+        output, _ = program.communicate()
+        output += b"\ntook longer than %d s" % test.timeout_s
+    return program.returncode, output.decode(errors="replace")
 
 
-def attempt(build_dir, name):
-    results = os.path.join(build_dir, "test_results")
-    shutil.rmtree(results, ignore_errors=True)
-    started = time.monotonic()
-    command = ["ctest", "-R", "^%s$" % re.escape(name), "--timeout", str(TIMEOUT_S), "-V"]
-    done = subprocess.run(command, cwd=build_dir, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    count = Count()
-    read_reports(results, count)
-    if done.returncode != 0 and count.failed == 0:
-        count.failed = 1
-    if count.passed + count.failed == 0:
-        count.failed = 1
-    report(name, count, time.monotonic() - started, done.stdout.decode(errors="replace"))
-    keep(results, os.path.join(build_dir, "test_reports", name))
-    return count
+class Runner:
+    def __init__(self, build_dir):
+        self.kept = os.path.join(build_dir, "test_reports")
+        shutil.rmtree(self.kept, ignore_errors=True)
+        self.printing = threading.Lock()
 
+    def run(self, test):
+        for path in test.reports:
+            if os.path.exists(path):
+                os.remove(path)
+        os.makedirs(os.path.dirname(test.reports[0]), exist_ok=True)
+        started = time.monotonic()
+        code, output = run_program(test)
+        count = Count()
+        read_reports(test, count)
+        if (code != 0 and count.failed == 0) or count.passed + count.failed == 0:
+            count.failed += 1
+            count.failures.append("%s: ended with %d" % (test.name, code))
+        self.report(test, count, time.monotonic() - started, output)
+        self.keep(test)
+        return count
 
-def report(name, count, seconds, output):
-    word = "FAILED" if count.failed else "passed"
-    print("%s  %-58s %5d passed %3d failed %7.1f s"
-          % (word, short(name), count.passed, count.failed, seconds), flush=True)
-    if count.failed:
-        print("    " + output.replace("\n", "\n    "), flush=True)
+    def report(self, test, count, seconds, output):
+        word = "FAILED" if count.failed else "passed"
+        with self.printing:
+            print("%s  %-58s %5d passed %3d failed %7.1f s"
+                  % (word, test.name, count.passed, count.failed, seconds), flush=True)
+            if count.failed:
+                print("    " + output.replace("\n", "\n    "), flush=True)
 
+    def keep(self, test):
+        place = os.path.join(self.kept, test.name)
+        os.makedirs(place, exist_ok=True)
+        for path in test.reports:
+            if os.path.isfile(path):
+                shutil.copy(path, place)
 
-def short(name):
-    return re.sub(r"^_ctest_frontseat_driver_", "", name)
-
-
-def keep(results, place):
-    if os.path.isdir(results):
-        shutil.rmtree(place, ignore_errors=True)
-        shutil.copytree(results, place)
+    def run_all(self, tests):
+        with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
+            counts = list(pool.map(self.run, tests))
+        total = Count()
+        for test, count in zip(tests, counts):
+            if count.failed and test.timed_by_wall:
+                print("once more:", flush=True)
+                count = self.run(test)
+            total.add(count)
+        return total
 
 
 def main():
     build_dir = sys.argv[1]
     pattern = sys.argv[2] if len(sys.argv) > 2 else ""
-    shutil.rmtree(os.path.join(build_dir, "test_reports"), ignore_errors=True)
-    total = Count()
-    for name in known_tests(build_dir, pattern):
-        count = run(build_dir, name)
-        total.passed += count.passed
-        total.failed += count.failed
-        total.failures += count.failures or (["%s: no report" % name] if count.failed else [])
+    total = Runner(build_dir).run_all(known_tests(build_dir, pattern))
     for failure in total.failures:
         print("failed: " + failure)
     print("%d passed, %d failed" % (total.passed, total.failed), flush=True)
