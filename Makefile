@@ -1,8 +1,9 @@
 # `make demo` shows a simulated vehicle, `make test` proves the driver. Both install what they need.
 SHELL := /bin/bash
-# A program that drives the vehicle: square or square_cpp (a kingfisher), survey (a sandshark), none.
+# A program that drives the vehicle: square or square_cpp (a kingfisher), survey (a sandshark), dive or
+# square (a blueye), none.
 EXAMPLE ?= none
-VEHICLE ?= $(if $(filter square%,$(EXAMPLE)),kingfisher,sandshark)
+VEHICLE ?= $(if $(filter square%,$(EXAMPLE)),kingfisher,$(if $(filter dive,$(EXAMPLE)),blueye,sandshark))
 # Another folder for everything that is built: make BUILD_DIR=/tmp/build test
 BUILD_DIR ?= build
 export BUILD_DIR
@@ -20,7 +21,7 @@ FUZZ_SECONDS ?= 60
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
 
-demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher, EXAMPLE=square|square_cpp|survey
+demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher|blueye, EXAMPLE=square|square_cpp|survey|dive
 	@scripts/install_dependencies build $(if $(DISPLAY),rviz)
 	@scripts/build -DCATKIN_ENABLE_TESTING=OFF
 	@scripts/demo "$(VEHICLE)" "$(EXAMPLE)"

@@ -11,6 +11,7 @@ import math
 import time
 
 import rospy
+from frontseat_driver.msg import ControlStatus
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_srvs.srv import SetBool, Trigger
@@ -19,6 +20,10 @@ PERIOD = 0.1     # s; a command that is not repeated is stale after command_time
 OLDEST = 1.0     # s; without odom for longer we do not know where we are
 GAIN = 0.5       # 1/s: metres per second of way per metre of error
 PATIENCE = 10.0  # s for the driver to be there
+
+
+class Ended(Exception):
+    """The dive cannot go on; says why."""
 
 
 class Dive:
@@ -30,9 +35,11 @@ class Dive:
         self.place = None   # x, y, z, yaw
         self.heard = 0.0
         self.in_control = False
+        self.refusal = ""   # why a command would be refused now; empty if it would not
         self.command = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         # Without tcp_nodelay a message may be held back for some 40 ms.
         rospy.Subscriber("odom", Odometry, self.take, queue_size=1, tcp_nodelay=True)
+        rospy.Subscriber("control", ControlStatus, self.take_control_status, tcp_nodelay=True)
         rospy.on_shutdown(self.leave)
 
     def take(self, odom):
@@ -42,13 +49,30 @@ class Dive:
         self.place = (at.x, at.y, at.z, yaw)
         self.heard = time.monotonic()
 
+    def take_control_status(self, control):
+        self.refusal = control.reason
+
     def run(self):
         while self.place is None and not rospy.is_shutdown():
             time.sleep(PERIOD)
         if rospy.is_shutdown():
             return
-        self.call("take_control", Trigger)
-        self.in_control = True
+        try:
+            self.call("take_control", Trigger)
+            self.in_control = True
+            self.wait_for_permission()
+            self.dive()
+        except Ended as reason:
+            if not rospy.is_shutdown():
+                rospy.logwarn("ended early: %s", reason)
+
+    def wait_for_permission(self):
+        """`control` is a topic: it may be a little behind the service."""
+        end = time.monotonic() + PATIENCE
+        while self.refusal and time.monotonic() < end and not rospy.is_shutdown():
+            time.sleep(PERIOD)
+
+    def dive(self):
         x, y, _, yaw = self.place
         self.drive(lambda: (0.0, 0.0, -self.speed), lambda: self.place[2] < -self.depth)
         for automatic in ("auto_depth", "auto_heading"):
@@ -65,6 +89,7 @@ class Dive:
         for automatic in ("auto_depth", "auto_heading"):
             self.call(automatic, SetBool, False)
         self.drive(lambda: (0.0, 0.0, self.speed), lambda: self.place[2] > -0.3)
+        rospy.loginfo("at the surface")
 
     def towards(self, x, y):
         """Metres per second to the bow and to port, the yaw as it is: it can go sideways."""
@@ -79,7 +104,9 @@ class Dive:
         return math.hypot(x - self.place[0], y - self.place[1]) < self.reached
 
     def drive(self, wanted, reached):
-        while not rospy.is_shutdown() and not reached():
+        while not reached():
+            if rospy.is_shutdown() or self.refusal:
+                raise Ended(self.refusal)
             fresh = time.monotonic() - self.heard < OLDEST
             self.send(*(wanted() if fresh else (0.0, 0.0, 0.0)))
             # Not rospy.Rate: the driver's time-outs run in real time, whatever /clock does.
@@ -93,10 +120,13 @@ class Dive:
         self.command.publish(twist)
 
     def call(self, name, kind, *arguments):
+        """Raises Ended, with what the driver says, if it is not done."""
+        if rospy.is_shutdown():
+            raise Ended("shut down")
         rospy.wait_for_service(name, PATIENCE)
         answer = rospy.ServiceProxy(name, kind)(*arguments)
         if not answer.success:
-            raise RuntimeError("%s: %s" % (name, answer.message))
+            raise Ended("%s: %s" % (name, answer.message))
 
     def leave(self):
         # Sooner than by command_timeout, which stops the drone if this program is killed.
