@@ -10,7 +10,7 @@ import unittest
 import package_under_test as package
 
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
-PROGRAMS = ("nmea_node", "nmea_simulator", "nmea_decode", "blueye_simulator", "kingfisher_square",
+PROGRAMS = ("blueye_node", "nmea_node", "nmea_simulator", "nmea_decode", "blueye_simulator", "kingfisher_square",
             "kingfisher_square.py", "sandshark_survey.py", "blueye_dive.py", "frontseat_monitor",
             "nmea_plot")
 LAYERS = ("nmea", "vehicle", "link", "protocol", "capture", "session", "driver", "sim")
@@ -55,7 +55,8 @@ class Install(unittest.TestCase):
 
     def test_libraries(self):
         self.assert_installed("lib/lib%s_%s.a" % (package.NAME, layer) for layer in LAYERS)
-        self.assert_installed(["lib/lib%s_nodelets.so" % package.NAME])
+        self.assert_installed("lib/lib%s%s_nodelets.so" % (package.NAME, kind)
+                              for kind in ("", "_blueye"))
 
     def test_python_modules(self):
         modules = package.files("python/" + package.NAME, ".py")

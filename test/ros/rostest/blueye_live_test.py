@@ -1,0 +1,169 @@
+#!/usr/bin/env python3
+"""blueye_node and the simulated drone together: control, motion, failures, the way out."""
+
+import math
+import signal
+import sys
+import unittest
+
+import rospy
+import rostest
+from frontseat_driver.msg import BlueyeMessage, ControlStatus
+from frontseat_driver.srv import BlueyeControl, BlueyeRequest, LoadMission
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
+
+from driver_under_test import PACKAGE, Collector, Process, program
+from fake_vehicle import TIMEOUT_S, wait_until
+
+PORTS = ("telemetry_port", "request_port", "control_port")
+MOTION = "blueye.protocol.MotionInputCtrl"
+
+
+def call(name, kind, **request):
+    rospy.wait_for_service(name, TIMEOUT_S)
+    return rospy.ServiceProxy(name, kind)(**request)
+
+
+class Pair:
+    """A drone and a driver of their own, each in its namespace."""
+
+    def __init__(self, name):
+        self.name = "/" + name
+        drone = self.name + "/drone"
+        rospy.set_param(drone, dict({port: 0 for port in PORTS}, http=False, noise=False))
+        self.drone = Process([program(PACKAGE, "blueye_simulator"), "__name:=drone",
+                              "__ns:=" + self.name])
+        ports = {port: wait_until(lambda port=port: rospy.get_param(drone + "/actual_" + port, 0),
+                                  port) for port in PORTS}
+        rospy.set_param(self.name + "/driver", dict(ports, host="127.0.0.1", reconnect_min=0.1,
+                                                    silence_timeout=60))
+        self.control = Collector(self.name + "/control", ControlStatus)
+        self.sent = Collector(self.name + "/blueye/control_out", BlueyeMessage)
+        self.odom = Collector(self.name + "/odom", Odometry)
+        self.truth = Collector(drone + "/odom", Odometry)
+        self.driver = Process([program(PACKAGE, "blueye_node"), "__name:=driver",
+                               "__ns:=" + self.name])
+        self.velocity = rospy.Publisher(self.name + "/cmd_vel", Twist, queue_size=1)
+        wait_until(lambda: self.grant() == ControlStatus.DENIED, "the drone's word")
+
+    def stop(self):
+        self.driver.stop()
+        self.drone.stop()
+
+    def grant(self):
+        return self.control.received[-1][1].grant if self.control.received else None
+
+    def speed(self):
+        linear = self.truth.received[-1][1].twist.twist.linear
+        return math.hypot(linear.x, linear.y)
+
+    def take_control(self):
+        answer = call(self.name + "/take_control", Trigger)
+        wait_until(lambda: self.grant() == ControlStatus.GRANTED, "control")
+        return answer
+
+    def drive(self, until):
+        command = Twist()
+        command.linear.x = 0.5
+
+        def moved():
+            self.velocity.publish(command)
+            return until()
+
+        wait_until(moved, "motion")
+
+    def motions(self):
+        return [message.data for _, message in self.sent.received if message.type == MOTION]
+
+    def at_rest(self):
+        """The last motion sent was zero: an input with no field that is not its default."""
+        return bool(self.motions()) and not any(self.motions()[-1][2:])
+
+
+class BlueyeLive(unittest.TestCase):
+    def pair(self, name):
+        pair = Pair(name)
+        self.addCleanup(pair.stop)
+        return pair
+
+    def test_an_observer_moves_nothing(self):
+        pair = self.pair("observer")
+        tries = []
+
+        def refused():
+            command = Twist()
+            command.linear.x = 0.5
+            pair.velocity.publish(command)
+            tries.append(1)
+            return len(tries) > 200
+
+        wait_until(refused, "200 commands")
+        self.assertEqual([], pair.sent.received)
+        self.assertLess(pair.speed(), 0.05)
+        answer = call(pair.name + "/blueye/send_control", BlueyeControl, type="LightsCtrl",
+                      json='{"lights": {"value": 0.5}}')
+        self.assertFalse(answer.success)
+        self.assertIn("not in control", answer.message)
+
+    def test_drives_stops_and_answers(self):
+        pair = self.pair("drive")
+        self.assertTrue(pair.take_control().success)
+        pair.drive(lambda: pair.speed() > 0.1)
+        self.assertTrue(pair.odom.received)
+        wait_until(pair.at_rest, "zero after the last command")  # it is stale by itself
+        self.assertTrue(call(pair.name + "/auto_depth", SetBool, data=True).success)
+        answer = call(pair.name + "/blueye/request", BlueyeRequest, type="GetBatteryReq")
+        self.assertTrue(answer.success, answer.message)
+        self.assertEqual("blueye.protocol.GetBatteryRep", answer.type)
+        lights = Collector(pair.name + "/lights", Float64)
+        publisher = rospy.Publisher(pair.name + "/cmd_lights", Float64, queue_size=1)
+
+        def lit():
+            publisher.publish(0.5)
+            return lights.received and abs(lights.received[-1][1].data - 0.5) < 0.01
+
+        wait_until(lit, "light")
+        self.assertTrue(call(pair.name + "/release_control", Trigger).success)
+        wait_until(lambda: pair.grant() == ControlStatus.DENIED, "an observer again")
+
+    def test_runs_a_mission(self):
+        pair = self.pair("mission")
+        pair.take_control()
+        loaded = call(pair.name + "/mission/load", LoadMission, json="""{"instructions": [
+            {"id": 0, "depth_set_point_command": {"depth_set_point": {"depth": 2.0,
+             "speed_to_depth": 0.3, "depth_zero_reference": "DEPTH_ZERO_REFERENCE_SURFACE"}}}]}""")
+        self.assertTrue(loaded.success, loaded.message)
+        run = call(pair.name + "/mission/run", Trigger)
+        self.assertTrue(run.success, run.message)
+        stopped = call(pair.name + "/stop", Trigger)
+        self.assertIn("paused", stopped.message)
+        self.assertTrue(call(pair.name + "/mission/clear", Trigger).success)
+        broken = call(pair.name + "/mission/load", LoadMission, json="{}")
+        self.assertFalse(broken.success)
+
+    def test_a_reboot_leaves_an_observer_that_sends_nothing(self):
+        pair = self.pair("reboot")
+        pair.take_control()
+        pair.drive(lambda: pair.speed() > 0.1)
+        self.assertTrue(call(pair.name + "/drone/reboot", Trigger).success)
+        wait_until(lambda: pair.grant() != ControlStatus.GRANTED, "the loss")
+        before = len(pair.sent.received)
+        wait_until(lambda: pair.grant() == ControlStatus.DENIED, "the new connection")
+        call(pair.name + "/ping", Trigger)
+        self.assertEqual(before, len(pair.sent.received))
+
+    def test_a_driver_that_is_interrupted_leaves_the_drone_at_rest(self):
+        pair = self.pair("leave")
+        pair.take_control()
+        pair.drive(lambda: pair.speed() > 0.1)
+        pair.driver.send_signal(signal.SIGINT)
+        wait_until(lambda: not pair.driver.runs(), "the end of the driver")
+        wait_until(lambda: pair.speed() < 0.05, "rest")
+
+
+if __name__ == "__main__":
+    rospy.init_node("blueye_live_test")
+    rostest.rosrun(PACKAGE, "blueye_live", BlueyeLive, sys.argv)
