@@ -78,11 +78,16 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
   input_ = std::make_unique<Input>(node, name_, parameters, session_, catalogue_, post_task);
   services_ =
       std::make_unique<Services>(node, parameters, session_, publisher_, catalogue_, post_task);
-  if (driver_) driver_->start();
+  if (!driver_) return;
+  // The publisher's own topic once more, to see who listens.
+  const auto record = node.advertise<BlueyeMessage>(topics::kTelemetry, kReplayQueue);
+  expected_ = std::make_unique<ExpectedSubscribers>(node, std::vector{record},
+                                                    [this] { driver_->start(); });
 }
 
 // Tasks refer to the input and the services, so these stay until no task can run any more.
 Bridge::~Bridge() {
+  if (expected_) expected_->close();
   services_->close();
   input_->close();
   replay_.shutdown();

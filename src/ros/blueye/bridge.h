@@ -16,6 +16,7 @@
 #include "blueye/parameters.h"
 #include "blueye/publisher.h"
 #include "blueye/services.h"
+#include "expected_subscribers.h"
 #include "frontseat_driver/driver/blueye_driver.h"
 #include "host_clocks.h"
 
@@ -107,6 +108,7 @@ class Bridge : private driver::BlueyeLinkListener, private session::BlueyeListen
   std::unique_ptr<driver::BlueyeDriver> driver_;  ///< empty while a record is played
   std::unique_ptr<Input> input_;
   std::unique_ptr<Services> services_;
+  std::unique_ptr<ExpectedSubscribers> expected_;  ///< whom the drone's first words wait for
 };
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer
