@@ -11,7 +11,8 @@ import package_under_test as package
 
 SHARED = ("config", "launch", "rviz", "urdf", "msg", "srv")
 PROGRAMS = ("blueye_node", "nmea_node", "nmea_simulator", "nmea_decode", "blueye_simulator",
-            "kingfisher_square", "kingfisher_square.py", "sandshark_survey.py", "blueye_dive.py", "frontseat_monitor",
+            "kingfisher_square", "kingfisher_square.py", "sandshark_survey.py", "blueye_dive.py",
+            "frontseat_monitor",
             "nmea_plot")
 LAYERS = ("nmea", "vehicle", "link", "protocol", "capture", "session", "driver", "sim")
 
