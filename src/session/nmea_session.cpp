@@ -152,25 +152,29 @@ void NmeaSession::hear(const Now& now, std::string_view line, Output& out) {
   const auto sentence = nmea::parseSentence(line, nmea::ChecksumRule::Required);
   if (!sentence) return count(sentence.failure());
   if (!std::exchange(confirmed_, true)) out.confirmed();
-  take(now, *sentence, out);
+  if (take(now, *sentence, out)) counters_.decoded_bytes += line.size();
 }
 
-void NmeaSession::take(const Now& now, const nmea::Sentence& sentence, Output& out) {
+bool NmeaSession::take(const Now& now, const nmea::Sentence& sentence, Output& out) {
   const auto spoken = protocol::dialectOf(sentence.talker());
   if (spoken && connected_ && !dialect_) learnDialect(now, *spoken, out);
   if (spoken && spoken != dialect_) {
     ++counters_.unknown;
     ++counters_.other_dialect;
-    return;
+    return false;
   }
   const auto reading = protocol::decode(sentence);
-  if (!reading) return count(reading.failure());
+  if (!reading) {
+    count(reading.failure());
+    return false;
+  }
   ++counters_.decoded;
   counters_.bad_fields += static_cast<std::uint64_t>(reading->faults.count);
   // A GPS receiver's sentences go by its own clock.
   const auto sent_at = spoken ? sentAt(reading->message) : std::nullopt;
   if (sent_at) out.event(now, vehicle::ClockSample{*sent_at});
   takeMessage(now, reading->message, out);
+  return true;
 }
 
 void NmeaSession::takeMessage(const Now& now, const protocol::Message& message, Output& out) {
@@ -587,6 +591,9 @@ NmeaCounters NmeaSession::counters() const {
   counters.sentences_received = framed.sentences;
   counters.bad_frames += framed.cut_off + framed.noise_lines;
   counters.oversized = framed.oversized;
+  counters.refused_bytes = framed.sentence_bytes - counters.decoded_bytes + framed.dropped_bytes;
+  counters.line_end_bytes = framed.line_end_bytes;
+  counters.pending_bytes = framer_.pending();
   return counters;
 }
 

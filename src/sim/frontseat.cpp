@@ -35,6 +35,7 @@ double rateOf(const FrontseatConfig& config, const Rate& rate) {
 
 /// Fine enough for every rate, and whole milliseconds, so that times can be written exactly.
 nanoseconds tickFor(const FrontseatConfig& config, const std::vector<Rate>& rates) {
+  if (config.tick.count() > 0) return config.tick;
   double fastest = 0.0;
   for (const Rate& rate : rates) fastest = std::max(fastest, rateOf(config, rate));
   return fastest > 100.0 ? milliseconds{1} : milliseconds{10};

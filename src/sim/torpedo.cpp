@@ -20,6 +20,9 @@ constexpr double kHeel_s2_m = 0.08;    // heel per surge and rate of turn, outwa
 constexpr double kHotelPower_w = 15.0;
 constexpr double kThrustPower_w = 150.0;  // at 1000 rpm, growing with the cube
 
+/// The fins lose their hold as the hull stands up, so that it never goes over.
+double grip(double pitch_rad) { return std::cos(pitch_rad) * std::cos(pitch_rad); }
+
 double approach(double from, double to, double lag_s, double dt_s) {
   return from + (to - from) * std::min(1.0, dt_s / lag_s);
 }
@@ -37,7 +40,8 @@ void Torpedo::command(const Actuators& actuators) {
 
 double Torpedo::elevatorFor(double pitch_rad, double surge_m_s) {
   const double righting = kPitchFrequency_rad_s * kPitchFrequency_rad_s * std::sin(pitch_rad);
-  return righting / (kElevatorGain * std::max(0.1, surge_m_s * surge_m_s));
+  const double hold = std::max(0.1, surge_m_s * surge_m_s * grip(pitch_rad));
+  return righting / (kElevatorGain * hold);
 }
 
 VehicleModel::Acceleration Torpedo::accelerate(double dt_s) {
@@ -54,7 +58,8 @@ VehicleModel::Acceleration Torpedo::accelerate(double dt_s) {
   Acceleration a;
   a.surge_m_s2 = (kSpeedPerRpm * actual_.thruster_rpm - surge) / kSurgeLag_s;
   a.heading_rad_s2 = (turn - rates.heading_rad_s) / kTurnLag_s;
-  a.pitch_rad_s2 = kElevatorGain * surge * std::abs(surge) * actual_.elevator_rad -
+  a.pitch_rad_s2 = kElevatorGain * surge * std::abs(surge) * grip(now.pitch_rad) *
+                       actual_.elevator_rad -
                    kPitchFrequency_rad_s * kPitchFrequency_rad_s * std::sin(now.pitch_rad) -
                    2.0 * kDamping * kPitchFrequency_rad_s * rates.pitch_rad_s;
   a.roll_rad_s2 = kRollFrequency_rad_s * kRollFrequency_rad_s * (heel - now.roll_rad) -

@@ -55,6 +55,12 @@ struct NmeaCounters {
   std::uint64_t other_dialect = 0;  ///< those of them that belong to the other dialect
   std::uint64_t oversized = 0;      ///< lines longer than nmea::Framer::kMaxLine
   std::uint64_t refused_commands = 0;
+
+  // Where every byte went: after each call of the session these four make up bytes_received.
+  std::uint64_t decoded_bytes = 0;   ///< of the sentences in `decoded`
+  std::uint64_t refused_bytes = 0;   ///< of all other lines, and of what is no line
+  std::uint64_t line_end_bytes = 0;  ///< CR and LF
+  std::uint64_t pending_bytes = 0;   ///< of a sentence that has begun and not ended
 };
 
 /// A command that came to nothing, and why.
@@ -131,12 +137,15 @@ class NmeaSession : public Session {
   /// What a Sandshark is asked for on every connection, in this order.
   const std::vector<LogSwitch>& logRequests() const { return log_requests_; }
 
+  /// Requests that are not answered yet.
+  std::size_t openRequests() const { return requests_.size(); }
+
   /// Commands sent that the vehicle has not acknowledged yet.
   std::size_t unacknowledged() const { return acks_.outstanding(); }
 
  private:
   void hear(const Now& now, std::string_view line, Output& out);
-  void take(const Now& now, const nmea::Sentence& sentence, Output& out);
+  bool take(const Now& now, const nmea::Sentence& sentence, Output& out);  ///< true: decoded
   void takeMessage(const Now& now, const protocol::Message& message, Output& out);
   void takeAcknowledgement(const Now& now, vehicle::Acknowledgement& ack);
   void takeMotion(const Now& now, const vehicle::Event& event);

@@ -69,6 +69,7 @@ class RequestQueue {
 
   explicit RequestQueue(std::chrono::nanoseconds ack_timeout) : ack_timeout_(ack_timeout) {}
 
+  std::size_t size() const { return open_.size(); }
   bool full() const { return open_.size() >= kMost; }
 
   void add(Request request, std::string note, Respond respond, SteadyTime now);

@@ -38,6 +38,7 @@ struct FrontseatConfig {
   std::chrono::milliseconds solution_age{10};  ///< from the navigation solution to its sentence
   double first_fix_s = 0.0;                    ///< no position before
   std::map<std::string, double> rates;         ///< Hz by formatter; 0 turns off
+  std::chrono::milliseconds tick{0};           ///< steps the vehicle lives in; 0: by the rates
   Quirks quirks;
   Faults faults;
 };
@@ -72,6 +73,9 @@ class Frontseat {
   void clientConnected(ClientId client, UtcTime now);
   void clientBytes(ClientId client, std::string_view bytes, UtcTime now);
   void clientDisconnected(ClientId client);
+
+  /// What goes wrong from now on.
+  void setFaults(const Faults& faults) { config_.faults = faults; }
 
   /// Lets the vehicle live up to `now` in fixed steps of tick(), then hands on all that was said.
   void step(UtcTime now, Sink& sink);
@@ -155,7 +159,7 @@ class Frontseat {
   void promote();
   Report report(std::string_view sentence, std::function<void()> send) const;
 
-  const FrontseatConfig config_;
+  FrontseatConfig config_;
   const std::vector<Rate>& default_rates_;
   const std::chrono::seconds clock_ahead_of_utc_;
   std::chrono::nanoseconds clock_steps_{0};

@@ -94,7 +94,7 @@ void ClosedLoop::pass(Duration duration) {
 }
 
 Duration ClosedLoop::nextEvent() const {
-  const vehicle::SteadyTime next_step = session_.nextStep();
+  const vehicle::SteadyTime next_step = session_->nextStep();
   Duration next = next_tick_;
   if (next_step < vehicle::SteadyTime{kSteadyStart + next}) {
     next = std::max(elapsed_, next_step.time_since_epoch() - kSteadyStart);
@@ -113,16 +113,19 @@ void ClosedLoop::vehicleSteps() {
 
 void ClosedLoop::deliver() {
   for (; !to_vehicle_.empty() && to_vehicle_.front().due <= elapsed_; to_vehicle_.pop_front()) {
-    frontseat_->clientBytes(client_, to_vehicle_.front().bytes, vehicleTime());
+    const std::string& bytes = to_vehicle_.front().bytes;
+    under_way_ -= std::min(under_way_, bytes.size());
+    frontseat_->clientBytes(client_, bytes, vehicleTime());
   }
   for (; !to_driver_.empty() && to_driver_.front().due <= elapsed_; to_driver_.pop_front()) {
-    session_.receive(now(), to_driver_.front().bytes, output());
+    if (watch.arrives) watch.arrives(to_driver_.front().bytes);
+    session_->receive(now(), to_driver_.front().bytes, output());
     step();
   }
 }
 
 void ClosedLoop::step() {
-  session_.step(now(), output());
+  session_->step(now(), output());
   if (watch.step) watch.step();
 }
 
@@ -131,7 +134,7 @@ void ClosedLoop::step() {
 void ClosedLoop::connect() {
   if (std::exchange(connected_, true)) return;
   frontseat_->clientConnected(++client_, vehicleTime());
-  session_.connected(now(), output());
+  session_->connected(now(), output());
   step();
 }
 
@@ -139,27 +142,70 @@ void ClosedLoop::disconnect() {
   if (!std::exchange(connected_, false)) return;
   lose();
   frontseat_->clientDisconnected(client_);
-  session_.disconnected(now(), output());
+  session_->disconnected(now(), output());
+  if (watch.lost) watch.lost();
   step();
+}
+
+void ClosedLoop::abandon() {
+  lose();
+  frontseat_->clientDisconnected(client_);
+  link.delivers = false;
 }
 
 void ClosedLoop::lose() {
   to_vehicle_.clear();
   to_driver_.clear();
+  under_way_ = 0;
+}
+
+// Three sentences.
+bool ClosedLoop::congested() const {
+  return link.congested || (link.room > 0 && under_way_ > 3 * 80);
 }
 
 bool ClosedLoop::send(const vehicle::Now&, std::string_view sentence) {
-  if (!connected_ || !link.takes) return false;
-  sent_.push_back({elapsed_, withoutLineEnd(sentence)});
-  if (link.delivers) to_vehicle_.push_back({elapsed_ + link.delay, std::string{sentence}});
-  if (watch.sent) watch.sent(sent_.back());
+  const bool has_room = link.room == 0 || under_way_ + sentence.size() <= link.room;
+  if (!connected_ || !link.takes || !has_room) {
+    if (watch.refused) watch.refused();
+    return false;
+  }
+  const Sent sent{elapsed_, withoutLineEnd(sentence)};
+  if (keeps_records_) sent_.push_back(sent);
+  under_way_ += sentence.size();
+  if (link.delivers) send(to_vehicle_, std::string{sentence}, link.read_every);
+  if (watch.sent) watch.sent(sent);
   return true;
 }
 
 void ClosedLoop::send(sim::ClientId client, std::string_view bytes) {
   if (client != client_ || !connected_ || !link.delivers) return;
   std::string arriving = link.edit ? link.edit(bytes) : std::string{bytes};
-  if (!arriving.empty()) to_driver_.push_back({elapsed_ + link.delay, std::move(arriving)});
+  if (arriving.empty()) return;
+  if (watch.said) watch.said(arriving);
+  send(to_driver_, std::move(arriving), Duration{0});
+}
+
+// TCP keeps the order, so nothing arrives before what was sent before it.
+void ClosedLoop::send(std::deque<Parcel>& way, std::string bytes, Duration least_gap) {
+  if (link_random_.chance(link.corrupt)) {
+    char& byte = bytes[link_random_.below(bytes.size())];
+    byte = static_cast<char>(byte ^ (1 << link_random_.below(8)));
+  }
+  std::size_t from = 0;
+  while (from < bytes.size()) {
+    std::size_t size = bytes.size() - from;
+    if (link_random_.chance(link.cut)) size = 1 + link_random_.below(size);
+    const Duration extra{
+        link.jitter.count() > 0
+            ? static_cast<std::int64_t>(static_cast<double>(link.jitter.count()) *
+                                        link_random_.uniform())
+            : 0};
+    Duration due = elapsed_ + link.delay + extra;
+    if (!way.empty()) due = std::max(due, way.back().due + least_gap);
+    way.push_back({due, bytes.substr(from, size)});
+    from += size;
+  }
 }
 
 void ClosedLoop::disconnect(sim::ClientId client) {
@@ -169,7 +215,7 @@ void ClosedLoop::disconnect(sim::ClientId client) {
 // --- What a user does ---
 
 ros_layer::Converted ClosedLoop::convert(const Wanted& wanted) const {
-  const auto north_offset_deg = builder_.northOffset_deg();
+  const auto north_offset_deg = builder_->northOffset_deg();
   if (const auto* behavior = std::get_if<Behavior>(&wanted)) {
     return ros_layer::toCommand(*behavior, north_offset_deg);
   }
@@ -182,14 +228,15 @@ ros_layer::Converted ClosedLoop::convert(const Wanted& wanted) const {
                               parameters_.max_yaw_rate_rad_s);
 }
 
-std::string ClosedLoop::publish(const Wanted& wanted) {
+std::string ClosedLoop::publish(const Wanted& wanted, Duration waited) {
   const auto converted = convert(wanted);
   if (const auto* refusal = std::get_if<std::string>(&converted)) {
-    session_.countRefusedCommands(now(), 1, *refusal);
+    session_->countRefusedCommands(now(), 1, *refusal);
     return *refusal;
   }
   const auto refusal =
-      session_.command(now(), std::get<vehicle::Command>(converted), now().steady, output());
+      session_->command(now(), std::get<vehicle::Command>(converted), now().steady - waited,
+                        output());
   step();
   return refusal;
 }
@@ -204,28 +251,54 @@ void ClosedLoop::publishFor(const Wanted& wanted, Duration period, Duration dura
 std::size_t ClosedLoop::request(session::Request request) {
   const std::size_t number = asked_.size();
   asked_.push_back({elapsed_, {}});
-  session_.request(
+  session_->request(
       now(), std::move(request),
       [this, number](const session::Answer& answer) {
         asked_[number].answers.push_back({elapsed_, answer});
+        if (watch.answered) watch.answered(number, answer);
       },
       output());
   step();
   return number;
 }
 
+std::size_t ClosedLoop::modify(const Behavior& behavior) {
+  const auto converted = convert(behavior);
+  const auto* refusal = std::get_if<std::string>(&converted);
+  if (!refusal) {
+    return request(std::get<vehicle::BehaviorCommand>(std::get<vehicle::Command>(converted)));
+  }
+  const session::Answer answer{false, *refusal};
+  asked_.push_back({elapsed_, {{elapsed_, answer}}});
+  if (watch.answered) watch.answered(asked_.size() - 1, answer);
+  return asked_.size() - 1;
+}
+
+std::string ClosedLoop::payloadStatus(bool ok, const std::string& message) {
+  const std::string refusal = session_->setPayloadStatus(now(), {ok, message});
+  step();
+  return refusal;
+}
+
 void ClosedLoop::stop() {
-  session_.stop(now(), output());
+  session_->stop(now(), output());
   step();
 }
 
 void ClosedLoop::gate(bool open) {
-  session_.setCommandsEnabled(now(), open, output());
+  session_->setCommandsEnabled(now(), open, output());
   step();
 }
 
 void ClosedLoop::leave() {
-  session_.leave(now(), output());
+  session_->leave(now(), output());
+  step();
+}
+
+void ClosedLoop::load() {
+  disconnect();
+  session_.emplace(parameters_.session);
+  builder_.emplace(parameters_);
   step();
 }
 
@@ -236,38 +309,44 @@ void ClosedLoop::heard(const vehicle::Now&, std::string_view line) {
 }
 
 void ClosedLoop::navigation(const sim::Truth& truth) {
+  if (watch.truth) watch.truth(truth);
+  if (watch.told) return;
   truths_[truth.stamp] = truth;
   if (truths_.size() > 1000) truths_.erase(truths_.begin());
-  if (watch.truth) watch.truth(truth);
 }
 
 void ClosedLoop::event(const vehicle::Now& now, const vehicle::Event& event) {
-  if (session_.dialect()) builder_.setDialect(*session_.dialect());
+  if (session_->dialect()) builder_->setDialect(*session_->dialect());
   if (watch.event) watch.event(now, event);
   if (const auto* control = std::get_if<vehicle::Control>(&event)) {
     reason_ = std::string{control->reason};
     commanding_ = control->commanding;
   }
-  if (const auto* clock = std::get_if<vehicle::ClockSample>(&event)) builder_.take(*clock, now);
-  if (const auto* imu = std::get_if<vehicle::RawImu>(&event)) builder_.take(*imu, now);
+  if (const auto* clock = std::get_if<vehicle::ClockSample>(&event)) builder_->take(*clock, now);
+  if (const auto* imu = std::get_if<vehicle::RawImu>(&event)) builder_->take(*imu, now);
+  if (const auto* fix = std::get_if<vehicle::GpsFix>(&event)) builder_->take(*fix, now);
+  if (const auto* gps = std::get_if<vehicle::GpsVelocity>(&event)) builder_->take(*gps, now);
   if (const auto* velocity = std::get_if<vehicle::Velocity>(&event)) take(*velocity, now);
-  if (const auto* navigation = std::get_if<vehicle::Navigation>(&event)) take(*navigation, now);
+  const auto* navigation = std::get_if<vehicle::Navigation>(&event);
+  const bool told = navigation && take(*navigation, now);
+  if (watch.told) watch.told(event, told ? &odometry_ : nullptr);
 }
 
 void ClosedLoop::take(const vehicle::Velocity& velocity, const vehicle::Now& arrival) {
-  builder_.take(velocity, arrival);
-  const auto imu = builder_.imu();
-  if (imu && watch.imu) watch.imu(*imu);
+  builder_->take(velocity, arrival);
+  if (!watch.imu) return;
+  if (const auto imu = builder_->imu()) watch.imu(*imu);
 }
 
-void ClosedLoop::take(const vehicle::Navigation& navigation, const vehicle::Now& arrival) {
-  builder_.take(navigation, arrival);
-  const auto odometry = builder_.odometry();
-  if (!odometry) return;
+bool ClosedLoop::take(const vehicle::Navigation& navigation, const vehicle::Now& arrival) {
+  builder_->take(navigation, arrival);
+  const auto odometry = builder_->odometry();
+  if (!odometry) return false;
   odometry_ = *odometry;
-  if (!watch.odometry) return;
+  if (!watch.odometry) return true;
   const auto truth = truths_.find(ros_layer::toUtcTime(odometry_.header.stamp));
   if (truth != truths_.end()) watch.odometry(odometry_, truth->second);
+  return true;
 }
 
 double ClosedLoop::yaw() const { return yawOf(odometry_.pose.pose.orientation); }

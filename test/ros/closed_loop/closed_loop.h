@@ -19,6 +19,7 @@
 #include "command_convert.h"
 #include "frontseat_driver/session/nmea_session.h"
 #include "frontseat_driver/sim/kingfisher_frontseat.h"
+#include "frontseat_driver/sim/random.h"
 #include "frontseat_driver/sim/sandshark_frontseat.h"
 #include "message_builder.h"
 #include "parameters.h"
@@ -93,17 +94,28 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   void connect();
   /// Both sides notice; what is under way is lost.
   void disconnect();
+  /// The vehicle's side is gone and the driver's does not know: nothing arrives from here on.
+  void abandon();
   /// The vehicle is off at once and begins anew, at the same clock; the link is lost.
   template <class Config>
   void powerCycle(Config vehicle) {
     disconnect();
-    vehicle.start_time = vehicleTime();
-    frontseat_ = frontseatFor(vehicle);
-    next_tick_ = elapsed_;
+    replaceVehicle(vehicle);
+  }
+  /// The same, but its host goes without a word: the driver's side of the link stays open.
+  template <class Config>
+  void crash(const Config& vehicle) {
+    abandon();
+    replaceVehicle(vehicle);
   }
 
   struct Link {
     Duration delay{0};       ///< one way
+    Duration jitter{0};      ///< and up to so much more; the order stays
+    double cut = 0.0;        ///< probability that what is sent at once comes in pieces
+    double corrupt = 0.0;    ///< probability that one byte of it changes, either way
+    Duration read_every{0};  ///< a slow vehicle takes so long from one sentence to the next
+    std::size_t room = 0;    ///< bytes that may be under way to the vehicle; 0: any number
     bool takes = true;       ///< false: full, so that it refuses what is sent
     bool congested = false;  ///< still holds what it took before
     bool delivers = true;    ///< false: half-open, so that all is taken and nothing arrives
@@ -111,21 +123,31 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
     std::function<std::string(std::string_view)> edit;
   };
   Link link;
+  /// Begins the link's own random numbers.
+  void seedLink(std::uint64_t seed) { link_random_ = sim::Random{seed}; }
+  /// The link has not got rid of what it was given before, as driver::Driver has it.
+  bool congested() const override;
 
   // What a user does. Each is followed by a step, as in the driver.
 
-  /// Why it was refused, or nothing.
-  std::string publish(const Wanted& wanted);
+  /// Why it was refused, or nothing. It reached this computer `waited` ago.
+  std::string publish(const Wanted& wanted, Duration waited = Duration{0});
   /// The number of the request in asked().
   std::size_t request(session::Request request);
+  /// As the service modify_behavior.
+  std::size_t modify(const Behavior& behavior);
+  /// Why it was refused, or nothing.
+  std::string payloadStatus(bool ok, const std::string& message);
   void stop();
   void gate(bool open);
   void leave();
+  /// A new driver with the same parameters in place of the one that has left.
+  void load();
 
   // What there is to see
 
-  session::NmeaSession& session() { return session_; }
-  ros_layer::MessageBuilder& builder() { return builder_; }
+  session::NmeaSession& session() { return *session_; }
+  ros_layer::MessageBuilder& builder() { return *builder_; }
   sim::Frontseat& frontseat() { return *frontseat_; }
   sim::SandsharkFrontseat& sandshark() {
     return dynamic_cast<sim::SandsharkFrontseat&>(*frontseat_);
@@ -135,7 +157,10 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   }
   const sim::VehicleState& state() const { return frontseat_->model().state(); }
   bool connected() const { return connected_; }
+  vehicle::UtcTime vehicleTime() const { return start_ + elapsed_; }  ///< true UTC
 
+  /// Without records, sent() stays empty: for runs of hours.
+  void keepRecords(bool keep) { keeps_records_ = keep; }
   const std::vector<Sent>& sent() const { return sent_; }
   /// Those whose address is `address`, "PYDIR", sent not before `from`.
   std::vector<Sent> sent(std::string_view address, Duration from = Duration{0}) const;
@@ -145,10 +170,11 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   const std::string& reason() const { return reason_; }             ///< as `control` has it
   bool commanding() const { return commanding_; }
 
-  /// Called, if set, with each odometry and the truth at its stamp, each IMU message, the truth at
-  /// each navigation instant, each event, each sentence that was sent, each line that was heard,
-  /// and after every step.
+  /// Called, if set.
   struct Watch {
+    /// Each odometry and the truth at its stamp, each IMU message, the truth at each navigation
+    /// instant, each event, each sentence that was sent, each line that was heard before it is
+    /// decoded, and after every step.
     std::function<void(const nav_msgs::Odometry&, const sim::Truth&)> odometry;
     std::function<void(const sensor_msgs::Imu&)> imu;
     std::function<void(const sim::Truth&)> truth;
@@ -156,6 +182,14 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
     std::function<void(const Sent&)> sent;
     std::function<void(std::string_view)> heard;
     std::function<void()> step;
+    /// Each event, with the odometry that it made, if it did; then no pairs are made.
+    std::function<void(const vehicle::Event&, const nav_msgs::Odometry*)> told;
+    std::function<void(std::string_view)> said;     ///< what the vehicle sent, as it arrives
+    std::function<void(std::string_view)> arrives;  ///< bytes, before the session has them
+    std::function<void()> refused;                  ///< the link did not take a sentence
+    std::function<void()> lost;                     ///< the connection, however
+    std::function<void()> confirmed;                ///< the session calls the vehicle one
+    std::function<void(std::size_t, const session::Answer&)> answered;
   };
   Watch watch;
 
@@ -167,10 +201,11 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
 
   // session::Output
   bool send(const vehicle::Now& now, std::string_view sentence) override;
-  bool congested() const override { return link.congested; }
   void heard(const vehicle::Now& now, std::string_view line) override;
   void event(const vehicle::Now& now, const vehicle::Event& event) override;
-  void confirmed() override {}
+  void confirmed() override {
+    if (watch.confirmed) watch.confirmed();
+  }
 
   // sim::Frontseat::Sink
   void send(sim::ClientId client, std::string_view bytes) override;
@@ -181,21 +216,27 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   static std::unique_ptr<sim::Frontseat> frontseatFor(const sim::KingfisherConfig& vehicle);
 
   session::Output& output() { return *this; }
-  vehicle::UtcTime vehicleTime() const { return start_ + elapsed_; }
+  template <class Config>
+  void replaceVehicle(Config vehicle) {
+    vehicle.start_time = vehicleTime();
+    frontseat_ = frontseatFor(vehicle);
+    next_tick_ = elapsed_;
+  }
+  void send(std::deque<Parcel>& way, std::string bytes, Duration least_gap);
   Duration nextEvent() const;
   void step();
   void vehicleSteps();
   void deliver();
   void lose();
-  void take(const vehicle::Navigation& navigation, const vehicle::Now& arrival);
+  bool take(const vehicle::Navigation& navigation, const vehicle::Now& arrival);
   void take(const vehicle::Velocity& velocity, const vehicle::Now& arrival);
   ros_layer::Converted convert(const Wanted& wanted) const;
 
   const ros_layer::Parameters parameters_;
   const vehicle::UtcTime start_;
   std::unique_ptr<sim::Frontseat> frontseat_;
-  session::NmeaSession session_;
-  ros_layer::MessageBuilder builder_;
+  std::optional<session::NmeaSession> session_;
+  std::optional<ros_layer::MessageBuilder> builder_;
 
   Duration elapsed_{0};
   Duration next_tick_{0};
@@ -207,7 +248,10 @@ class ClosedLoop : private session::Output, private sim::Frontseat::Sink {
   sim::ClientId client_ = 0;
   std::deque<Parcel> to_vehicle_;
   std::deque<Parcel> to_driver_;
+  std::size_t under_way_ = 0;  ///< bytes to the vehicle
+  sim::Random link_random_{1};
 
+  bool keeps_records_ = true;
   std::vector<Sent> sent_;
   std::vector<Asked> asked_;
   std::map<vehicle::UtcTime, sim::Truth> truths_;

@@ -88,7 +88,7 @@ class Anything {
         dialect_(dialect),
         parameters_(anyParameters(random_, dialect)),
         loop_(anyLoop(parameters_, dialect, random_)),
-        supervised_(*loop_, parameters_.session, dialect) {}
+        supervised_(*loop_, parameters_, dialect) {}
 
   /// What was broken, or nothing.
   std::string run() {
@@ -163,7 +163,7 @@ class Anything {
 
   void actOnClock() {
     const double step_s = (random_.uniform() - 0.5) * 36000.0;
-    loop_->stepSystemClock(std::chrono::milliseconds{static_cast<std::int64_t>(step_s * 1000.0)});
+    supervised_.stepSystemClock(std::chrono::milliseconds{static_cast<std::int64_t>(step_s * 1000.0)});
   }
 
   void ask() {

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "closed_loop.h"
+#include "frontseat_driver/sim/random.h"
+
+namespace frontseat_driver::simulation {
+
+using closed_loop::Duration;
+
+/// Everything that can happen to a driver. Names are in plan.cpp.
+enum class Kind {
+  // A user.
+  Commands,
+  Flood,
+  Nonsense,
+  WrongVehicle,
+  Stop,
+  Gate,
+  Abort,
+  ModifyBehavior,
+  SetLogging,
+  PayloadStatus,
+  SetDatum,
+  Unload,
+  // The network.
+  Delay,
+  Jitter,
+  Chunks,
+  Corruption,
+  SlowReader,
+  NoRoom,
+  Reset,
+  HalfOpen,
+  Refusal,
+  NoHost,
+  // The clocks.
+  HostClockStep,
+  VehicleClockStep,
+  LeapSecond,
+  // The vehicle.
+  Reboot,
+  RebootWrongClock,
+  Crash,
+  HangUp,
+  Silence,
+  SentencesLost,
+  AcksLost,
+  AcksLate,
+  AcksPending,
+  AcksTwice,
+  AcksLying,
+  AcksForOthers,
+  Disobedience,
+  ControlTaken,
+  ControlTossed,
+  MissionRestart,
+  ShutdownNotice,
+  OtherDialect,
+  Garbage,
+  kCount
+};
+constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kCount);
+
+/// "half-open", for people.
+std::string_view nameOf(Kind kind);
+
+/// One thing that happens, for how long where it lasts, and where its details come from.
+struct Action {
+  Duration at{};
+  Kind kind{};
+  Duration lasts{};
+  std::uint64_t seed = 0;
+};
+
+/// All that a seed decides before a run begins. What happens can be taken out one by one without
+/// changing the rest, to find what a failure needs.
+struct Plan {
+  ros_layer::Parameters parameters;
+  sim::SandsharkConfig sandshark;
+  sim::KingfisherConfig kingfisher;
+  closed_loop::Duration length{};
+  std::uint64_t seed = 0;
+  protocol::Dialect dialect{};
+  bool field_rates = false;
+  std::vector<Action> actions;  ///< in the order of time
+};
+
+/// `hours` of the vehicle's time.
+Plan planFor(std::uint64_t seed, protocol::Dialect dialect, double hours);
+
+/// The vehicle that a seed is given if none is asked for.
+protocol::Dialect dialectOf(std::uint64_t seed);
+
+template <class T, std::size_t kCount>
+const T& oneOf(sim::Random& random, const T (&choices)[kCount]) {
+  return choices[random.below(kCount)];
+}
+
+inline double between(sim::Random& random, double low, double high) {
+  return low + (high - low) * random.uniform();
+}
+
+inline Duration fromSeconds(double s) { return Duration{static_cast<std::int64_t>(s * 1e9)}; }
+
+}  // namespace frontseat_driver::simulation
