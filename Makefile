@@ -7,6 +7,8 @@ VEHICLE ?= $(if $(filter square%,$(EXAMPLE)),kingfisher,$(if $(filter dive,$(EXA
 # Another folder for everything that is built: make BUILD_DIR=/tmp/build test
 BUILD_DIR ?= build
 export BUILD_DIR
+# Simulated missions.
+SEEDS ?= 10000
 # Compilers at once.
 JOBS ?= 2
 export JOBS
@@ -16,7 +18,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak lint bench clean
+.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak simulate plant lint bench clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -65,10 +67,20 @@ sanitize: ## the test programs under address, undefined behavior and thread sani
 
 pictures: build ## the README's plots and monitor, from demo missions of five minutes
 	@scripts/pictures
+
 bench: ## what a sentence costs, beside baselines, as doc/performance.md explains; BENCH=full takes half an hour
 	@scripts/install_dependencies build bench
 	@scripts/build -DFRONTSEAT_BENCH=ON
 	@scripts/bench $(BENCH)
+
+simulate: ## missions in virtual time on all cores, any fault from a seed; SEEDS=10000, HOURS=1 each
+	@scripts/install_dependencies build test
+	@TARGETS=mission_simulation scripts/build -DCATKIN_ENABLE_TESTING=ON
+	@"$(BUILD_DIR)/devel/lib/frontseat_driver/mission_simulation" --seeds=$(SEEDS) --hours=$(HOURS)
+
+plant: ## plants bugs in a copy of the sources and shows that missions find each; SEEDS=100
+	@scripts/install_dependencies build test
+	@SEEDS=$(if $(filter file,$(origin SEEDS)),100,$(SEEDS)) HOURS=$(HOURS) scripts/plant_bugs
 
 lint: ## clang-format, catkin_lint and clang-tidy over everything
 	@scripts/install_dependencies build test lint

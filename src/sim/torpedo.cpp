@@ -58,10 +58,10 @@ VehicleModel::Acceleration Torpedo::accelerate(double dt_s) {
   Acceleration a;
   a.surge_m_s2 = (kSpeedPerRpm * actual_.thruster_rpm - surge) / kSurgeLag_s;
   a.heading_rad_s2 = (turn - rates.heading_rad_s) / kTurnLag_s;
-  a.pitch_rad_s2 = kElevatorGain * surge * std::abs(surge) * grip(now.pitch_rad) *
-                       actual_.elevator_rad -
-                   kPitchFrequency_rad_s * kPitchFrequency_rad_s * std::sin(now.pitch_rad) -
-                   2.0 * kDamping * kPitchFrequency_rad_s * rates.pitch_rad_s;
+  a.pitch_rad_s2 =
+      kElevatorGain * surge * std::abs(surge) * grip(now.pitch_rad) * actual_.elevator_rad -
+      kPitchFrequency_rad_s * kPitchFrequency_rad_s * std::sin(now.pitch_rad) -
+      2.0 * kDamping * kPitchFrequency_rad_s * rates.pitch_rad_s;
   a.roll_rad_s2 = kRollFrequency_rad_s * kRollFrequency_rad_s * (heel - now.roll_rad) -
                   2.0 * kDamping * kRollFrequency_rad_s * rates.roll_rad_s;
   return a;

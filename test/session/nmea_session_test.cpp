@@ -69,6 +69,22 @@ TEST_F(NmeaSessionTest, ASentenceTheLinkDoesNotTakeIsTriedAgain) {
   EXPECT_EQ(session_->counters().sentences_sent, 6u);
 }
 
+TEST_F(NmeaSessionTest, EveryByteIsDecodedRefusedALineEndOrPending) {
+  start(withDialect(Dialect::Sandshark));
+  receive("$BFVER,120000.000,SS_0.0*29\r\nnoise\r\n$BFXYZ,1*42\r\n$BFNVG,12");
+  NmeaCounters counters = session_->counters();
+  EXPECT_EQ(counters.bytes_received, 27u + 5 + 11 + 6 + 9);
+  EXPECT_EQ(counters.decoded, 1u);
+  EXPECT_EQ(counters.decoded_bytes, 27u);
+  EXPECT_EQ(counters.refused_bytes, 5u + 11);
+  EXPECT_EQ(counters.line_end_bytes, 6u);
+  EXPECT_EQ(counters.pending_bytes, 9u);
+  disconnect();
+  counters = session_->counters();
+  EXPECT_EQ(counters.pending_bytes, 0u);
+  EXPECT_EQ(counters.refused_bytes, 5u + 11 + 9);
+}
+
 TEST_F(NmeaSessionTest, KingfisherIsSentNothing) {
   start(withDialect(Dialect::Kingfisher));
   hear("CPNVR,120000.000,0.1,0.2,0,0,0,0");

@@ -105,6 +105,42 @@ TEST(Faulty, SplitEndsWritesInTheMiddle) {
   EXPECT_GT(writes.broken, 50);
 }
 
+TEST(Faulty, FaultsBeginAndEndWhileItRuns) {
+  Bench bench{kingfisherWith(Faults{})};
+  bench.connect(1);
+  bench.run(0.99);
+  EXPECT_THAT(bench.heard(1), SizeIs(10));
+  Faults all_lost;
+  all_lost.drop = 1.0;
+  bench.frontseat().setFaults(all_lost);
+  bench.run(1.0);
+  EXPECT_THAT(bench.heard(1), IsEmpty());
+  bench.frontseat().setFaults(Faults{});
+  bench.run(1.0);
+  EXPECT_THAT(bench.heard(1), SizeIs(10));
+}
+
+TEST(Faulty, AClockStepShowsInTheNextSentence) {
+  Bench bench{kingfisherWith(Faults{})};
+  bench.connect(1);
+  bench.run(0.99);
+  EXPECT_EQ(fields(bench.heard(1).back())[1], "120018.900");  // GPS time
+  bench.frontseat().stepClock(-std::chrono::seconds{90});
+  bench.run(0.1);
+  EXPECT_EQ(fields(bench.heard(1).back())[1], "115849.000");
+}
+
+TEST(Faulty, ALongTickBundlesWhatIsSaid) {
+  KingfisherConfig config = kingfisherWith(Faults{});
+  config.tick = std::chrono::milliseconds{500};
+  Bench bench{config};
+  bench.connect(1);
+  bench.run(0.49);
+  bench.heard(1);
+  bench.run(0.6);
+  EXPECT_THAT(bench.heard(1), SizeIs(2));
+}
+
 TEST(Faulty, StallIsSilence) {
   Faults faults;
   faults.stall_s = 3.0;

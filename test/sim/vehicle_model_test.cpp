@@ -93,6 +93,18 @@ TEST(TorpedoModel, DivesAMetreWithinAMinuteAndStaysThere) {
   EXPECT_NEAR(vehicle.state().altitude_m, 19.0, 0.05);
 }
 
+TEST(TorpedoModel, NeverGoesOverWhateverItsElevator) {
+  for (const double elevator : {Torpedo::kMaxFin_rad, -Torpedo::kMaxFin_rad}) {
+    Torpedo vehicle = torpedo();
+    vehicle.command({0.0, elevator, Torpedo::kMaxRpm});
+    for (double t = 0.0; t < 120.0; t += kStep_s) {
+      vehicle.step(kStep_s);
+      ASSERT_LT(std::abs(vehicle.state().pitch_rad), 1.5);
+    }
+    EXPECT_GT(std::abs(vehicle.state().pitch_rad), 0.5);
+  }
+}
+
 TEST(TorpedoModel, RisesByItselfAndStopsAtTheSurface) {
   Torpedo vehicle = torpedo();
   vehicle.command({0.0, -Torpedo::kMaxFin_rad, 1000.0});

@@ -196,11 +196,10 @@ void ClosedLoop::send(std::deque<Parcel>& way, std::string bytes, Duration least
   while (from < bytes.size()) {
     std::size_t size = bytes.size() - from;
     if (link_random_.chance(link.cut)) size = 1 + link_random_.below(size);
-    const Duration extra{
-        link.jitter.count() > 0
-            ? static_cast<std::int64_t>(static_cast<double>(link.jitter.count()) *
-                                        link_random_.uniform())
-            : 0};
+    const Duration extra{link.jitter.count() > 0
+                             ? static_cast<std::int64_t>(static_cast<double>(link.jitter.count()) *
+                                                         link_random_.uniform())
+                             : 0};
     Duration due = elapsed_ + link.delay + extra;
     if (!way.empty()) due = std::max(due, way.back().due + least_gap);
     way.push_back({due, bytes.substr(from, size)});
@@ -234,9 +233,8 @@ std::string ClosedLoop::publish(const Wanted& wanted, Duration waited) {
     session_->countRefusedCommands(now(), 1, *refusal);
     return *refusal;
   }
-  const auto refusal =
-      session_->command(now(), std::get<vehicle::Command>(converted), now().steady - waited,
-                        output());
+  const auto refusal = session_->command(now(), std::get<vehicle::Command>(converted),
+                                         now().steady - waited, output());
   step();
   return refusal;
 }

@@ -163,7 +163,8 @@ class Anything {
 
   void actOnClock() {
     const double step_s = (random_.uniform() - 0.5) * 36000.0;
-    supervised_.stepSystemClock(std::chrono::milliseconds{static_cast<std::int64_t>(step_s * 1000.0)});
+    supervised_.stepSystemClock(
+        std::chrono::milliseconds{static_cast<std::int64_t>(step_s * 1000.0)});
   }
 
   void ask() {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr auto kSlack = 10ms;
 constexpr Duration kRepeatedWithin = 5s;  // SPI 0.1, section 7.3
+constexpr Duration kAskedWithin = 8s;     // all BPLOG, with other things in between
 constexpr auto kAmbiguous = 15s;          // times may come twice after a clock step
 constexpr std::uint64_t kSteps = 10000;   // of thrust between 0 and full
 constexpr std::size_t kMostUnacknowledged = 128;
@@ -98,6 +99,8 @@ void Supervised::forgetConnection() {
   current_.reset();
   ended_.reset();
   was_permitted_ = false;
+  asks_from_.reset();
+  asked_for_.clear();
   heading_at_.reset();
   depth_at_.reset();
   speed_at_.reset();
@@ -272,7 +275,7 @@ void Supervised::load() {
   forgetConnection();
   ledger_ = {};
   gate_open_ = options_.commands_enabled;
-  left_ = false;
+  left_ = logs_changed_ = false;
   grid_convergence_deg_.reset();
   permitted_since_ = Duration{0};
   status_ok_ = true;
@@ -314,6 +317,7 @@ void Supervised::requestBehavior() {
 }
 
 void Supervised::requestLog(const std::string& sentence, bool enable) {
+  logs_changed_ = true;
   Open open;
   open.kind = Kind::Log;
   open.text = sentence;
@@ -361,10 +365,10 @@ void Supervised::checkMatch(const Open& open, const session::Answer& answer) {
   const bool its_time = open.kind == Kind::Log
                             ? hearing_->time.empty()
                             : std::count(open.times.begin(), open.times.end(), hearing_->time) > 0;
-  promise(open.sent && its_name && (its_time || loop_.elapsed() < ambiguous_until_), "answered with another sentence's ACK: ",
-          answer.message);
-  promise(answer.success == (hearing_->status == "2"), "the ACK's status was not told: ",
-          answer.message);
+  promise(open.sent && its_name && (its_time || loop_.elapsed() < ambiguous_until_),
+          "answered with another sentence's ACK: ", answer.message);
+  promise(answer.success == (hearing_->status == "2"),
+          "the ACK's status was not told: ", answer.message);
 }
 
 // --- What is promised of each sentence ---
@@ -444,6 +448,7 @@ void Supervised::checkAbort(const Sent& sent, const Fields& fields) {
 void Supervised::checkLog(const Sent& sent, const Fields& fields) {
   const bool on = fields.at[2] == "ON";
   promise(fields.at[1].size() == 3 && (on || fields.at[2] == "OFF"), "wrong: ", sent.sentence);
+  if (on) asked_for_.emplace(fields.at[1]);
   for (Open& open : open_) {
     if (open.kind == Kind::Log && open.text == fields.at[1] && open.flag == on) open.sent = true;
   }
@@ -474,6 +479,7 @@ void Supervised::checkStep() {
   if (current_ && !alive()) endCommand();
   if (loop_.congested()) congested_at_ = loop_.elapsed();
   checkInTime();
+  checkLogRequests();
   checkAnswers();
   checkCounters();
   promise(left_ || loop_.reason().empty() == permitted(), "control says ", loop_.reason());
@@ -488,12 +494,28 @@ void Supervised::checkInTime() {
   if (waiting_abort_) {
     promise(now <= std::max(abort_asked_, refused_at_) + spacing(), "no abort in time");
   }
-  const bool aborting = std::any_of(open_.begin(), open_.end(),
-                                    [](const Open& open) { return open.kind == Kind::Abort; });
-  if (aborting) repeated_at_ = now;
+  if (aborting()) repeated_at_ = now;
   if (!current_) return;
   const Duration from = std::max({repeated_at_, refused_at_, congested_at_});
   promise(now <= from + kRepeatedWithin, "a fresh command was not repeated within 5 s");
+}
+
+// Aborts go first, all of them.
+bool Supervised::aborting() const {
+  return std::any_of(open_.begin(), open_.end(),
+                     [](const Open& open) { return open.kind == Kind::Abort; });
+}
+
+void Supervised::checkLogRequests() {
+  const bool asks = dialect_ == Dialect::Sandshark && !left_;
+  if (!asks || !asks_from_ || refused_at_ >= *asks_from_ || aborting()) asks_from_.reset();
+  if (asks && !asks_from_ && asked_for_.empty()) asks_from_ = loop_.elapsed();
+  if (!asks_from_ || logs_changed_ || loop_.elapsed() < *asks_from_ + kAskedWithin) return;
+  for (const std::string& sentence : options_.log_sentences) {
+    promise(asked_for_.count(sentence) > 0, "was not asked for: ", sentence);
+  }
+  if (options_.use_acks) promise(asked_for_.count("ACK") > 0, "was not asked for: ACK");
+  asks_from_.reset();
 }
 
 void Supervised::checkAnswers() {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,8 +23,9 @@ namespace frontseat_driver::closed_loop {
 /// spacing is kept; only the newest command is sent, as it was given, never one that is older than
 /// command_timeout or from before a stop; a boat hears zero in time; a fresh BPRMB is repeated
 /// within 5 s; an abort is next; each request is answered once, within ack_timeout, by the
-/// acknowledgement of its own sentence; what `control` says is so; every line that came is heard
-/// and every byte is counted; nothing queues up.
+/// acknowledgement of its own sentence; what is
+/// to be logged is asked for on every connection; what `control` says is so; every line that came
+/// is heard and every byte is counted; nothing queues up.
 class Supervised {
  public:
   Supervised(ClosedLoop& loop, const ros_layer::Parameters& parameters, protocol::Dialect vehicle);
@@ -98,6 +100,7 @@ class Supervised {
   void hearPresent(std::string_view formatter, const Fields& fields);
   bool fills() const { return options_.format.fill_behavior_fields; }
   bool isBoat() const { return dialect_ == protocol::Dialect::Kingfisher; }
+  bool aborting() const;
   bool alive() const;  ///< there is a command, and it is fresh
   bool expected(const std::optional<Written>& written, Duration waited) const;
   void endCommand();
@@ -118,6 +121,7 @@ class Supervised {
   void checkStatus(const Sent& sent, const Fields& fields);
   void checkStep();
   void checkInTime();
+  void checkLogRequests();
   void checkAnswers();
   void checkCounters();
   void hear(std::string_view line);
@@ -141,10 +145,13 @@ class Supervised {
   std::optional<Duration> heading_at_;  ///< when each was last told
   std::optional<Duration> depth_at_;
   std::optional<Duration> speed_at_;
-  std::optional<Ack> hearing_;  ///< the acknowledgement that is being heard
+  std::optional<Duration> asks_from_;  ///< when it became a Sandshark's
+  std::set<std::string> asked_for_;    ///< by BPLOG
+  std::optional<Ack> hearing_;         ///< the acknowledgement that is being heard
 
   bool gate_open_;
   bool left_ = false;
+  bool logs_changed_ = false;    ///< by a user
   Duration refused_at_{-1};      ///< when the link last took no sentence
   Duration congested_at_{-1};    ///< when it was last seen full
   Duration permitted_since_{0};  ///< or stopped, or aborted

@@ -188,9 +188,8 @@ void TruthCheck::checkPosition(const sim::Truth& truth, const nav_msgs::Odometry
   const auto& position = odometry.pose.pose.position;
   const double off_m = std::hypot(position.x - expected.x, position.y - expected.y);
   supervised_.promise(off_m <= limits_.position_m, "odom is not where the vehicle is");
-  const double depth_m = limits_.zero_depth || vehicle_ == Dialect::Kingfisher
-                             ? 0.0
-                             : truth.state.depth_m;
+  const double depth_m =
+      limits_.zero_depth || vehicle_ == Dialect::Kingfisher ? 0.0 : truth.state.depth_m;
   supervised_.promise(std::abs(position.z + depth_m) <= 0.002, "odom has the wrong depth");
   const auto fix = loop_.builder().navFix();
   if (!fix) return supervised_.promise(false, "no nav/fix with an odom");
@@ -213,9 +212,9 @@ void TruthCheck::checkAttitude(const sim::Truth& truth, const nav_msgs::Odometry
   const double bow_east = 1.0 - 2.0 * (q.y * q.y + q.z * q.z);
   const double bow_north = 2.0 * (q.x * q.y + q.w * q.z);
   const double bow_up = 2.0 * (q.x * q.z - q.w * q.y);
-  const double off = std::hypot(bow_east - std::sin(heading) * std::cos(pitch),
-                                bow_north - std::cos(heading) * std::cos(pitch),
-                                bow_up - std::sin(pitch));
+  const double off =
+      std::hypot(bow_east - std::sin(heading) * std::cos(pitch),
+                 bow_north - std::cos(heading) * std::cos(pitch), bow_up - std::sin(pitch));
   supervised_.promise(off < 0.001, "the bow points elsewhere");
   // How far the port side is up.
   const double port_up = 2.0 * (q.y * q.z + q.w * q.x);
@@ -238,11 +237,10 @@ void TruthCheck::checkVelocity(const vehicle::Velocity& velocity) {
   const sim::VehicleState& state = moment->truth.state;
   if (published) {
     const auto& linear = published->twist.linear;
-    const double off = std::hypot(linear.x - state.velocity_east_m_s,
-                                  linear.y - state.velocity_north_m_s);
+    const double off =
+        std::hypot(linear.x - state.velocity_east_m_s, linear.y - state.velocity_north_m_s);
     supervised_.promise(off < 0.001, "nav/velocity is wrong");
-    supervised_.promise(std::abs(linear.z + state.velocity_down_m_s) < 0.001 ||
-                            !velocity.down_m_s,
+    supervised_.promise(std::abs(linear.z + state.velocity_down_m_s) < 0.001 || !velocity.down_m_s,
                         "nav/velocity is wrong upwards");
   }
   if (!imu || imu->angular_velocity_covariance[0] < 0.0) return;

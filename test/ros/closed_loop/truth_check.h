@@ -13,8 +13,8 @@ namespace frontseat_driver::closed_loop {
 
 /// How far what a vehicle says may be from what it does.
 struct TruthLimits {
-  double position_m = 0.05;      ///< decimals of a minute
-  bool course_heading = false;   ///< the heading is the course over ground
+  double position_m = 0.05;     ///< decimals of a minute
+  bool course_heading = false;  ///< the heading is the course over ground
   bool blank_attitude = false;
   bool zero_depth = false;
 };

@@ -184,8 +184,8 @@ bool Written::course(const Course& message, std::optional<double> convergence_de
 }
 
 bool Written::velocity(const geometry_msgs::Twist& message, const WritingRules& rules) {
-  for (const double part : {message.linear.x, message.linear.y, message.linear.z,
-                            message.angular.x, message.angular.y, message.angular.z}) {
+  for (const double part : {message.linear.x, message.linear.y, message.linear.z, message.angular.x,
+                            message.angular.y, message.angular.z}) {
     if (!std::isfinite(part)) return false;
   }
   const double most = rules.max_yaw_rate_rad_s;

@@ -14,7 +14,8 @@ constexpr std::string_view kAck = "$BFACK,";
 constexpr std::size_t kCommandTime = 3;
 constexpr std::size_t kStatus = 5;
 
-std::string withField(const closed_loop::Fields& fields, std::size_t number, std::string_view text) {
+std::string withField(const closed_loop::Fields& fields, std::size_t number,
+                      std::string_view text) {
   std::string body{fields.at[0]};
   for (std::size_t i = 1; i < fields.count; ++i) {
     body.append(1, ',').append(i == number ? text : fields.at[i]);
@@ -79,8 +80,15 @@ std::string Mischief::otherDialect() {
 
 // Lines that never end, half sentences, control characters, and what looks like a sentence.
 std::string Mischief::garbage() {
-  const char* const hard[] = {"$", "$$$", "\r\n", "$BFCTL,1", "$BFNVG,,,,,,,,,,,*\r\n",
-                              "*00\r\n", "$BFACK,*5B\r\n", "$,,,,*00\r\n", "$BFMIS,*zz\n"};
+  const char* const hard[] = {"$",
+                              "$$$",
+                              "\r\n",
+                              "$BFCTL,1",
+                              "$BFNVG,,,,,,,,,,,*\r\n",
+                              "*00\r\n",
+                              "$BFACK,*5B\r\n",
+                              "$,,,,*00\r\n",
+                              "$BFMIS,*zz\n"};
   if (random_.chance(0.4)) return oneOf(random_, hard);
   std::string bytes(random_.chance(0.1) ? 1500 : 1 + random_.below(60), ' ');
   const bool printable = random_.chance(0.5);

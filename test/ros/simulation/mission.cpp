@@ -162,8 +162,7 @@ void Mission::actDue() {
     laters_.erase(laters_.begin() + static_cast<std::ptrdiff_t>(i));
     act();
   }
-  for (; next_action_ < plan_.actions.size() &&
-         plan_.actions[next_action_].at <= loop_->elapsed();
+  for (; next_action_ < plan_.actions.size() && plan_.actions[next_action_].at <= loop_->elapsed();
        ++next_action_) {
     start(plan_.actions[next_action_]);
   }
@@ -325,8 +324,8 @@ Behavior Mission::anyBehavior(sim::Random& random, double reach) const {
   message.vertical = angle ? between(random, -reach, reach) * M_PI_2
                            : between(random, 1.0 - reach, reach) * 6000.0;
   const bool rpm = message.speed_mode == Behavior::SPEED_RPM;
-  message.speed = rpm ? between(random, -reach, reach) * 1e4
-                      : between(random, 1.0 - reach, reach) * 10.0;
+  message.speed =
+      rpm ? between(random, -reach, reach) * 1e4 : between(random, 1.0 - reach, reach) * 10.0;
   return message;
 }
 
@@ -408,10 +407,10 @@ void Mission::startVehicle(const Action& action, sim::Random& random) {
         faults.stall_s = faults.stall_every_s = on ? 1e-3 : 0.0;
       });
     case Kind::AcksLate:
-      return setFault(action, [late_s = oneOf(random, {0.2, 1.0, 2.5, 6.0})](
-                                  sim::Faults& faults, bool on) {
-        faults.delay_acks_s = on ? late_s : 0.0;
-      });
+      return setFault(action,
+                      [late_s = oneOf(random, {0.2, 1.0, 2.5, 6.0})](sim::Faults& faults, bool on) {
+                        faults.delay_acks_s = on ? late_s : 0.0;
+                      });
     case Kind::Disobedience:
       return setFault(action, [](sim::Faults& faults, bool on) { faults.lie = on; });
     case Kind::ControlTaken:

@@ -18,10 +18,12 @@ using namespace frontseat_driver::simulation;
 
 constexpr const char* kUsage =
     "usage: mission_simulation [--seeds=N] [--first=N] [--hours=H] [--threads=N]\n"
-    "                          [--dialect=sandshark|kingfisher] [--quiet] [--no-shrink]\n"
+    "                          [--dialect=sandshark|kingfisher] [--pace=P] [--quiet] "
+    "[--no-shrink]\n"
     "       mission_simulation --seed=N [--dialect=...] [--hours=H] [--verbose] [--no-shrink]\n"
     "Runs virtual missions and ends with status 1 at the first broken promise. With --seed, the\n"
-    "one run; --verbose prints everything that is said and happens. Without --dialect, odd seeds\n"
+    "one run; --verbose prints everything that is said and happens; --pace has more happen in an\n"
+    "hour. A failure is shrunk to the least that causes it. Without --dialect, odd seeds\n"
     "are sandsharks and even ones kingfishers.\n";
 
 struct Options {
@@ -46,6 +48,8 @@ bool take(Options& options, std::string_view argument) {
     options.runs.first = number();
   } else if (name == "--hours") {
     options.runs.hours = std::strtod(value.c_str(), nullptr);
+  } else if (name == "--pace") {
+    options.runs.pace = std::strtod(value.c_str(), nullptr);
   } else if (name == "--threads") {
     options.runs.threads = static_cast<unsigned>(std::max<unsigned long long>(1, number()));
   } else if (name == "--dialect" && (value == "sandshark" || value == "kingfisher")) {
@@ -65,8 +69,7 @@ bool take(Options& options, std::string_view argument) {
 
 void tell(const Failure& failure, bool shrinks) {
   constexpr std::size_t kTrace = 60;
-  const Plan plan = shrinks ? shrunk(failure)
-                            : planFor(failure.seed, failure.dialect, failure.hours);
+  const Plan plan = shrinks ? shrunk(failure) : planOf(failure);
   Mission mission{plan};
   mission.trace_lines = kTrace;
   const std::string broken = mission.run();
@@ -76,19 +79,20 @@ void tell(const Failure& failure, bool shrinks) {
   std::printf("%s", describe(plan).c_str());
   std::printf("the last %zu events:\n", mission.trace().size());
   for (const std::string& line : mission.trace()) std::printf("%s\n", line.c_str());
-  std::printf("again: mission_simulation --seed=%llu --dialect=%s --hours=%g --verbose\n",
-              static_cast<unsigned long long>(failure.seed),
-              protocol::toString(failure.dialect), failure.hours);
+  std::printf("again: mission_simulation --seed=%llu --dialect=%s --hours=%g --pace=%g --verbose\n",
+              static_cast<unsigned long long>(failure.seed), protocol::toString(failure.dialect),
+              failure.hours, failure.pace);
 }
 
 int runOne(const Options& options) {
   const auto dialect = options.runs.dialect.value_or(dialectOf(options.runs.first));
-  Mission mission{planFor(options.runs.first, dialect, options.runs.hours)};
+  Mission mission{planFor(options.runs.first, dialect, options.runs.hours, options.runs.pace)};
   mission.verbose = options.verbose;
   const std::string broken = mission.run();
   std::printf("%s", describe(mission.totals()).c_str());
   if (broken.empty()) return EXIT_SUCCESS;
-  tell({options.runs.first, dialect, options.runs.hours, broken}, options.shrinks);
+  tell({options.runs.first, dialect, options.runs.hours, options.runs.pace, broken},
+       options.shrinks);
   return EXIT_FAILURE;
 }
 

@@ -63,8 +63,8 @@ void Network::attempt() {
     return supervised_.connect();
   }
   state_ = State::Connecting;
-  due_ = loop_.elapsed() + (host_ == Host::Refuses ? Duration{kRoundTrip}
-                                                   : Duration{options_.connect_timeout});
+  due_ = loop_.elapsed() +
+         (host_ == Host::Refuses ? Duration{kRoundTrip} : Duration{options_.connect_timeout});
 }
 
 void Network::retry() {

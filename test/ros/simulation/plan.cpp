@@ -15,8 +15,8 @@ constexpr vehicle::UtcTime kMidnight = std::chrono::seconds{1772323200};
 
 struct KindRow {
   std::string_view name;
-  double per_hour;   ///< how often, on average
-  double least_s;    ///< how long
+  double per_hour;  ///< how often, on average
+  double least_s;   ///< how long
   double most_s;
 };
 
@@ -102,21 +102,21 @@ ros_layer::Parameters anyParameters(sim::Random& random, Dialect dialect) {
 
 void anyQuirks(sim::Quirks& quirks, sim::Random& random) {
   bool sim::Quirks::*const kAny[] = {
-      &sim::Quirks::float32_positions,   &sim::Quirks::zero_position_before_fix,
-      &sim::Quirks::blank_attitude,      &sim::Quirks::zero_altitude,
-      &sim::Quirks::zero_depth,          &sim::Quirks::nan_velocities,
-      &sim::Quirks::gn_talkers,          &sim::Quirks::cr_lf_lf,
-      &sim::Quirks::seconds_sixty,       &sim::Quirks::long_ack_names,
-      &sim::Quirks::ack_log_ack,         &sim::Quirks::one_read_one_sentence,
-      &sim::Quirks::cut_last_three,      &sim::Quirks::command_by_substring,
+      &sim::Quirks::float32_positions,    &sim::Quirks::zero_position_before_fix,
+      &sim::Quirks::blank_attitude,       &sim::Quirks::zero_altitude,
+      &sim::Quirks::zero_depth,           &sim::Quirks::nan_velocities,
+      &sim::Quirks::gn_talkers,           &sim::Quirks::cr_lf_lf,
+      &sim::Quirks::seconds_sixty,        &sim::Quirks::long_ack_names,
+      &sim::Quirks::ack_log_ack,          &sim::Quirks::one_read_one_sentence,
+      &sim::Quirks::cut_last_three,       &sim::Quirks::command_by_substring,
       &sim::Quirks::blank_mission_status, &sim::Quirks::zero_temperature,
-      &sim::Quirks::battery_without_id,  &sim::Quirks::acceleration_in_g,
-      &sim::Quirks::heron_compass,       &sim::Quirks::zero_thrust_stops};
+      &sim::Quirks::battery_without_id,   &sim::Quirks::acceleration_in_g,
+      &sim::Quirks::heron_compass,        &sim::Quirks::zero_thrust_stops};
   for (bool sim::Quirks::*const quirk : kAny) quirks.*quirk = random.chance(0.15);
 }
 
-constexpr const char* kSlow[] = {"DVL", "CTD", "RVL", "SVS", "RCM", "IMU", "RBS", "RMC", "GGA",
-                                 "VTG"};
+constexpr const char* kSlow[] = {"DVL", "CTD", "RVL", "SVS", "RCM",
+                                 "IMU", "RBS", "RMC", "GGA", "VTG"};
 
 void anyVehicle(sim::FrontseatConfig& config, sim::Random& random, bool field_rates) {
   config.seed = 1 + random.below(1000000);
@@ -150,11 +150,11 @@ void keepOwnRates(sim::FrontseatConfig& config, Dialect dialect) {
   config.rates = own;
 }
 
-std::vector<Action> anyActions(sim::Random& random, Duration length) {
+std::vector<Action> anyActions(sim::Random& random, Duration length, double pace) {
   std::vector<Action> actions;
   const double hours = std::chrono::duration<double>(length).count() / 3600.0;
   // Rough hours and quiet ones.
-  const double rate = oneOf(random, {0.3, 1.0, 1.0, 3.0});
+  const double rate = pace * oneOf(random, {0.3, 1.0, 1.0, 3.0});
   for (std::size_t i = 0; i < kKinds; ++i) {
     const double mean = kRows[i].per_hour * hours * rate;
     auto count = static_cast<std::size_t>(mean);
@@ -181,7 +181,7 @@ Dialect dialectOf(std::uint64_t seed) {
   return seed % 2 == 0 ? Dialect::Kingfisher : Dialect::Sandshark;
 }
 
-Plan planFor(std::uint64_t seed, Dialect dialect, double hours) {
+Plan planFor(std::uint64_t seed, Dialect dialect, double hours, double pace) {
   sim::Random random{seed, dialect == Dialect::Kingfisher ? 1U : 2U};
   Plan plan;
   plan.seed = seed;
@@ -203,7 +203,7 @@ Plan planFor(std::uint64_t seed, Dialect dialect, double hours) {
   plan.kingfisher.yaw_rate_in_degrees = plan.parameters.session.format.yaw_rate_in_degrees;
   plan.kingfisher.waves_deg = random.chance(0.5) ? 1.5 : 0.0;
   plan.kingfisher.imu_formatter = random.chance(0.5) ? "IMU" : "RIM";
-  plan.actions = anyActions(random, plan.length);
+  plan.actions = anyActions(random, plan.length, pace);
   return plan;
 }
 

@@ -89,8 +89,8 @@ struct Plan {
   std::vector<Action> actions;  ///< in the order of time
 };
 
-/// `hours` of the vehicle's time.
-Plan planFor(std::uint64_t seed, protocol::Dialect dialect, double hours);
+/// `hours` of the vehicle's time, in which things happen `pace` times as often as usual.
+Plan planFor(std::uint64_t seed, protocol::Dialect dialect, double hours, double pace = 1.0);
 
 /// The vehicle that a seed is given if none is asked for.
 protocol::Dialect dialectOf(std::uint64_t seed);

@@ -39,11 +39,11 @@ class Pool {
     for (std::uint64_t seed = next_++; seed < runs_.first + runs_.count && !failed_;
          seed = next_++) {
       const auto dialect = runs_.dialect.value_or(dialectOf(seed));
-      Mission mission{planFor(seed, dialect, runs_.hours)};
+      Mission mission{planFor(seed, dialect, runs_.hours, runs_.pace)};
       const std::string broken = mission.run();
       const std::lock_guard<std::mutex> lock(mutex_);
       totals_.add(mission.totals());
-      if (!broken.empty()) fail({seed, dialect, runs_.hours, broken});
+      if (!broken.empty()) fail({seed, dialect, runs_.hours, runs_.pace, broken});
       if (progress_) progress_(totals_.runs);
     }
   }
@@ -69,15 +69,19 @@ std::optional<Failure> makeRuns(const Runs& runs, Totals& totals,
   return Pool{runs, totals, progress}.run();
 }
 
+Plan planOf(const Failure& failure) {
+  return planFor(failure.seed, failure.dialect, failure.hours, failure.pace);
+}
+
 Plan shrunk(const Failure& failure) {
-  Plan plan = planFor(failure.seed, failure.dialect, failure.hours);
+  Plan plan = planOf(failure);
   int runs = 0;
   for (std::size_t size = plan.actions.size(); size > 0 && runs < kMostShrinkingRuns; size /= 2) {
     for (std::size_t from = 0; from < plan.actions.size() && runs < kMostShrinkingRuns;) {
       Plan fewer = plan;
       const auto begin = fewer.actions.begin() + static_cast<std::ptrdiff_t>(from);
-      const auto end = begin + static_cast<std::ptrdiff_t>(
-                                   std::min(size, fewer.actions.size() - from));
+      const auto end =
+          begin + static_cast<std::ptrdiff_t>(std::min(size, fewer.actions.size() - from));
       fewer.actions.erase(begin, end);
       ++runs;
       if (brokenBy(fewer).empty()) {

@@ -15,6 +15,7 @@ struct Failure {
   std::uint64_t seed = 0;
   protocol::Dialect dialect{};
   double hours = 1.0;
+  double pace = 1.0;
   std::string broken;
 };
 
@@ -23,6 +24,7 @@ struct Runs {
   std::uint64_t first = 1;
   std::uint64_t count = 1;
   double hours = 1.0;
+  double pace = 1.0;                         ///< how often things happen, in parts of the usual
   std::optional<protocol::Dialect> dialect;  ///< empty: by seed
   unsigned threads = 1;
 };
@@ -31,6 +33,9 @@ struct Runs {
 /// `progress` is called now and then with the number of runs made.
 std::optional<Failure> makeRuns(const Runs& runs, Totals& totals,
                                 const std::function<void(std::uint64_t)>& progress);
+
+/// The plan of the run that failed.
+Plan planOf(const Failure& failure);
 
 /// The least of what happens in a failing run that still makes it fail, by taking out halves,
 /// quarters and so on; and nothing after the failure.
