@@ -13,6 +13,7 @@ SEEDS ?= 10000
 JOBS ?= 2
 export JOBS
 
+# Of the soak; of each simulated mission.
 HOURS ?= 1
 # For each fuzzer.
 FUZZ_SECONDS ?= 60
