@@ -12,12 +12,12 @@ def medians(path):
 
 
 def decoding(runs):
-    base = runs["decode/byte_wise_checksum"]["ns"] * 1e9
+    base = runs["decode/byte_wise_checksum"]["ns"]
     print("| decoding | ns per sentence | of the checksum | heap allocations |\n"
           "| --- | --- | --- | --- |")
     for name, run in runs.items():
         if name.startswith("decode/"):
-            ns = run["ns"] * 1e9
+            ns = run["ns"]
             print("| %s | %.0f | %.2f | %.2f |" % (
                 name[len("decode/"):].replace("_", " "), ns, ns / base, run["allocations"]))
 

@@ -87,6 +87,8 @@ class Programs:
         process = subprocess.Popen(
             [str(word) for word in command], env=self.environment, universal_newlines=True,
             stdin=options.get("stdin", subprocess.DEVNULL),
+            # A shell's background jobs ignore it, and so would their children.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
             stdout=options.get("stdout", subprocess.DEVNULL),
             stderr=None if os.environ.get("BENCH_VERBOSE") else subprocess.DEVNULL)
         self.running.append(process)
@@ -151,9 +153,9 @@ def nodes_of(state, topic):
     return [node for name, nodes in state if name == topic for node in nodes]
 
 
-def connections(programs, subscriber_pid):
-    """TCP connections that a process has; one for each topic it is subscribed to."""
-    return len([f for f in os.listdir("/proc/%d/fd" % subscriber_pid)])
+def connections(pid):
+    """Open files: a connection for each topic that somebody is subscribed to, and the rest."""
+    return len(os.listdir("/proc/%d/fd" % pid))
 
 
 def load_nodelet(programs, manager, name, kind, **parameters):
@@ -202,16 +204,14 @@ def set_up(programs, args, program, nodelets, times, count, subscription, port, 
     return process, bag
 
 
-def settle(programs, process):
+def settle(process):
     """Until nothing connects any more: the subscribers are there and the start is over."""
-    state = {"files": -1, "same": 0}
+    files = []
 
     def calm():
-        files = connections(programs, process.pid)
-        state["same"] = state["same"] + 1 if files == state["files"] else 0
-        state["files"] = files
+        files.append(connections(process.pid))
         time.sleep(0.1)
-        return state["same"] >= 10
+        return len(files) > 10 and max(files[-10:]) - min(files[-10:]) <= 3
     wait_until(calm, "the subscribers")
 
 
@@ -234,7 +234,7 @@ def one_run(args, program, nodelets, rate, subscription, bundle=1, seconds=None,
                               vehicle.port)
         if vehicle.line() != "connected":
             raise RuntimeError("the program did not connect")
-        settle(programs, process)
+        settle(process)
         report(programs)
         before, began, memory = cpu_s(process.pid), time.monotonic(), memory_mib(process.pid)
         wrote = vehicle.go()
@@ -264,6 +264,7 @@ def one_run(args, program, nodelets, rate, subscription, bundle=1, seconds=None,
         if bag:
             recorder = programs.running[-2]
             programs.end(recorder)
+            wait_until(lambda: os.path.exists(bag), "the end of the record", 300.0)
             result["bag"] = read_bag(bag)
             os.remove(bag)
         print(json.dumps(result), flush=True)
@@ -283,11 +284,12 @@ def is_up(programs):
 def read_bag(path):
     """How many of each topic, and whether nmea/rx has every position in order."""
     import rosbag
-    counts, last, disorder, missing = {}, -1.0, 0, 0
+    last, disorder, missing = -1.0, 0, 0
     with rosbag.Bag(path) as bag:
-        for topic, message, _ in bag.read_messages():
-            counts[topic] = counts.get(topic, 0) + 1
-            if topic == "/nmea/rx" and "NVG" in message.sentence:
+        topics = bag.get_type_and_topic_info().topics
+        counts = {topic: of_topic.message_count for topic, of_topic in topics.items()}
+        for _, message, _ in bag.read_messages("/nmea/rx"):
+            if "NVG" in message.sentence:
                 number = float(message.sentence.split(",")[8])
                 step = number - last
                 disorder += step <= 0
@@ -381,7 +383,7 @@ def one_fleet(args, vehicles):
         report(programs)
         if vehicle.line() != "connected":
             raise RuntimeError("not all connected")
-        settle(programs, process)
+        settle(process)
         report(programs)
         before, began = cpu_s(process.pid), time.monotonic()
         vehicle.go()
@@ -396,21 +398,27 @@ def one_fleet(args, vehicles):
 
 
 def idle(args):
-    """No link: what waiting costs. And how long it takes from nothing to the first odometry."""
+    """What waiting costs without a link, beside a roscpp program that has nothing to do at all."""
     programs = Programs()
     try:
         programs.start("rosmaster", "--core", "-p", programs.master_port)
         wait_until(lambda: is_up(programs), "the master")
-        process = programs.start(executable("nmea_node"), "__name:=driver", "_host:=127.0.0.1",
-                                 "_port:=%d" % free_port())
+        processes = {
+            "driver": programs.start(executable("nmea_node"), "__name:=driver",
+                                     "_host:=127.0.0.1", "_port:=%d" % free_port()),
+            "bare": programs.start(executable("bench_subscriber"), "__name:=subscriber",
+                                   "_times:=" + os.path.join(args.directory, "times"))}
         wait_until(lambda: nodes_of(master_state(programs)[0], "/odom"), "the driver")
-        settle(programs, process)
-        before, began = cpu_s(process.pid), time.monotonic()
+        for process in processes.values():
+            settle(process)
+        before = {name: cpu_s(process.pid) for name, process in processes.items()}
+        began = time.monotonic()
         time.sleep(args.seconds)
-        used = cpu_s(process.pid) - before
-        print("no link: %.3f %% of a core, %.1f MiB, %d threads" % (
-            100.0 * used / (time.monotonic() - began), memory_mib(process.pid),
-            threads(process.pid)))
+        took = time.monotonic() - began
+        for name, process in processes.items():
+            print("no link, %s: %.3f %% of a core, %.1f MiB, %d threads" % (
+                name, 100.0 * (cpu_s(process.pid) - before[name]) / took,
+                memory_mib(process.pid), threads(process.pid)))
     finally:
         programs.end_all()
 

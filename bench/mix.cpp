@@ -114,16 +114,16 @@ struct Kind {
 
 /// Navigation, velocity and sensors at 10 Hz and more, the receiver at 5, the rest at 1.
 constexpr Kind kKinds[] = {
-    {"BFNVG", sandsharkNavigation, 16},
-    {"CPNVG", boatNavigation, 16},
-    {"NVR", velocity, 26},
-    {"CPIMU", rawImu, 15},
-    {"CPRCM", compass, 7},
-    {"CPRBS", battery, 2},
-    {"GPRMC", minimumData, 7},
-    {"GPGGA", gpsFix, 7},
-    {"BFACK", acknowledgement, 3},
-    {"BFMIS", missionStatus, 1},
+    {"BFNVG", sandsharkNavigation, 11},
+    {"CPNVG", boatNavigation, 11},
+    {"NVR", velocity, 20},
+    {"CPIMU", rawImu, 12},
+    {"CPRCM", compass, 14},
+    {"CPRBS", battery, 9},
+    {"GPRMC", minimumData, 8},
+    {"GPGGA", gpsFix, 8},
+    {"BFACK", acknowledgement, 4},
+    {"BFMIS", missionStatus, 3},
 };
 
 std::string framed(const std::string& body) {
