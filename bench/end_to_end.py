@@ -189,12 +189,13 @@ def set_up(programs, args, program, nodelets, times, count, subscription, port, 
     else:
         process = programs.start(executable("nmea_node" if program == "driver" else "bench_bare"),
                                  "__name:=driver", "_host:=127.0.0.1", "_port:=%d" % port)
-    if subscription == "bag":
+    if subscription in ("bag", "rx bag"):
         bag = os.path.join(args.directory, "all.bag")
-        programs.start("rosbag", "record", "-a", "-O", bag, "--tcpnodelay", "-b", "0",
+        topics = "-a" if subscription == "bag" else "/nmea/rx"
+        programs.start("rosbag", "record", topics, "-O", bag, "--tcpnodelay", "-b", "0",
                        "__name:=recorder")
     everything = subscription == "all" and program == "driver"
-    if nodelets and subscription != "bag":
+    if nodelets and bag is None:
         load_nodelet(programs, "/manager", "/subscriber", "frontseat_driver_bench/Subscriber",
                      times=times, count=count, all=everything, vehicles=vehicles)
     else:
@@ -341,10 +342,18 @@ def everything(args):
 
 
 def endurance(args):
-    run = one_run(args, "driver", False, 20000, "bag", bundle=20, seconds=args.seconds,
-                  count=int(20000 * args.seconds))
-    print("20,000 sentences a second for %.0f s: memory %.1f -> %.1f MiB, in the bag: %s" % (
-        args.seconds, run["memory_before_mib"], run["memory_mib"], run["bag"]))
+    """20,000 sentences a second, to a subscriber of everything, to a record of the sentences, and to
+    a record of everything."""
+    for subscription in ("all", "rx bag", "bag"):
+        run = one_run(args, "driver", False, 20000, subscription, bundle=20,
+                      seconds=args.seconds, count=int(20000 * args.seconds))
+        bag = run.get("bag", {})
+        received = bag.get("counts", {}).get("/nmea/rx") or run["topics"].get("nmea/rx")
+        print("20,000 sentences a second for %.0f s, %s: %d of %d in nmea/rx (the first is the "
+              "greeting), %d out of order; memory %.1f -> %.1f MiB" % (
+                  args.seconds, subscription, received, run["sentences"] + 1,
+                  bag.get("disorder", run["disorder"]), run["memory_before_mib"],
+                  run["memory_mib"]))
 
 
 def fleet(args):
@@ -377,7 +386,8 @@ def one_fleet(args, vehicles):
         for i in range(vehicles):
             load_nodelet(programs, "/manager", "/v%d/driver" % i, "frontseat_driver/NmeaNodelet",
                          host="127.0.0.1", port=vehicle.port, odom_frame="v%d/odom" % i,
-                         base_frame="v%d/base_link" % i)
+                         base_frame="v%d/base_link" % i,
+                         silence_timeout=600.0)  # until all the others are loaded
         programs.start(executable("bench_subscriber"), "__name:=subscriber", "_times:=" + times,
                        "_count:=%d" % (count * vehicles), "_vehicles:=%d" % vehicles)
         report(programs)
