@@ -35,6 +35,8 @@ constexpr std::array<const char*, 8> kAskedAtStart{
 
 constexpr const char* kNoConnection = "there is no connection to the vehicle";
 constexpr const char* kLeaving = "the driver is stopping";
+constexpr const char* kTooLate = "the drone answered too late; control is given back";
+constexpr const char* kReleasing = "control is being given back";
 constexpr const char* kRecord = "a record is being played";
 
 std::chrono::nanoseconds periodOf(double rate_hz) {
@@ -135,6 +137,7 @@ void BlueyeSession::disconnected(const Now& now, BlueyeOutput& out) {
   requests_.failAll(now, reason, out);
   registering_ = false;
   if (taking_) finishTaking(now, {false, reason}, out);
+  if (releasing_) finishReleasing(now, {false, reason});
   listener_.clients(now);
 }
 
@@ -181,11 +184,13 @@ void BlueyeSession::registerClient(const Now& now, bool observer, Then then, Blu
       [this, observer, then = std::move(then)](const Now& at, const BlueyeReply& reply,
                                                BlueyeOutput& o) {
         registering_ = false;
+        loseRegistration(at);  // what was commanded under the one before is not this one's
         pb::ConnectClientRep message;
         if (!reply.received || !parse(reply.payload, message) || message.client_id() == 0) {
-          loseRegistration(at);
           if (connected_ && !silent()) register_due_ = at.steady + kRegisterAgain;
-          if (taking_) finishTaking(at, {false, "the drone did not register this client"}, o);
+          const Answer failed{false, "the drone did not register this client"};
+          if (taking_) finishTaking(at, failed, o);
+          if (releasing_) finishReleasing(at, failed);
           return;
         }
         id_ = message.client_id();
@@ -206,6 +211,9 @@ void BlueyeSession::unregister(const Now& now, std::uint32_t id, Then then, Blue
       now, request.GetTypeName(), request.SerializeAsString(), timeout,
       [this, then = std::move(then)](const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
         registering_ = false;
+        if (leaving_) goodbye_said_ = true;
+        // Nothing of what was to follow may wait for the next connection.
+        if (!connected_ || leaving_) return;
         pb::DisconnectClientRep message;
         if (reply.received && parse(reply.payload, message)) learnClients(at, message, o);
         then(at, o);
@@ -278,8 +286,12 @@ void BlueyeSession::hearClients(const Now& now, std::string_view payload, bool i
                                 BlueyeOutput& out) {
   pb::ConnectedClientsTel message;
   if (!parse(payload, message)) return malformed();
-  // While we come and go ourselves, this may tell of us as we were.
-  if (registering_) return;
+  // While we come and go ourselves, this may tell of us as we were; that control is gone counts.
+  if (registering_) {
+    const std::uint32_t in_control = message.client_id_in_control();
+    if (inControl() && in_control != id_) setIdInControl(now, in_control, out);
+    return;
+  }
   // Telemetry and replies come on two connections: for a while this may be older than the last
   // reply. A reply to a question is not.
   if (!in_order && now.steady < registered_since_ + kOvertaken && registered() && !silent()) {
@@ -386,6 +398,7 @@ std::string BlueyeSession::refusal() const {
   if (leaving_) return kLeaving;
   if (options_.listen_only) return kRecord;
   if (!connected_) return kNoConnection;
+  if (releasing_) return kReleasing;
   if (!registered()) return "the drone has not registered this client yet";
   if (!commands_enabled_) return "the command gate is closed; service enable_commands opens it";
   if (inControl()) return {};
@@ -460,6 +473,7 @@ void BlueyeSession::setCommandsEnabled(const Now& now, bool enabled) {
 }
 
 void BlueyeSession::takeControl(const Now& now, Respond respond, BlueyeOutput& out) {
+  if (releasing_) return respond({false, kReleasing});
   if (inControl()) return respond({true, "this client is in control"});
   if (leaving_) return respond({false, kLeaving});
   if (options_.listen_only) return respond({false, kRecord});
@@ -470,22 +484,29 @@ void BlueyeSession::takeControl(const Now& now, Respond respond, BlueyeOutput& o
   if (!as_observer_) return continueTaking(now, out);
   unregister(
       now, id_,
-      [this, go_on](const Now& at, BlueyeOutput& o) { registerClient(at, false, go_on, o); }, out);
+      [this, go_on](const Now& at, BlueyeOutput& o) {
+        const bool late = !taking_ || at.steady >= taking_->deadline;
+        if (taking_ && late) finishTaking(at, {false, kTooLate}, o);
+        registerClient(at, late, late ? Then{} : go_on, o);
+      },
+      out);
 }
 
 void BlueyeSession::continueTaking(const Now& now, BlueyeOutput& out) {
   if (!taking_) return;
-  if (inControl()) return finishTaking(now, {true, "this client is in control"}, out);
   if (now.steady >= taking_->deadline) {
-    return finishTaking(now, {false, "client " + std::to_string(id_in_control_) + " keeps control"},
-                        out);
+    const std::string keeper = "client " + std::to_string(id_in_control_) + " keeps control";
+    return finishTaking(now, {false, inControl() ? kTooLate : keeper}, out);
   }
+  if (inControl()) return finishTaking(now, {true, "this client is in control"}, out);
   // The next look comes from step(): the drone may need a moment.
   taking_->again = SteadyTime::max();
   unregister(
       now, id_in_control_,
-      [this](const Now& at, BlueyeOutput&) {
-        if (taking_) taking_->again = at.steady + (inControl() ? 0ms : kAskAgain);
+      [this](const Now& at, BlueyeOutput& o) {
+        if (!taking_) return;
+        taking_->again = at.steady + kAskAgain;
+        if (inControl() || at.steady >= taking_->deadline) continueTaking(at, o);
       },
       out);
 }
@@ -496,30 +517,40 @@ void BlueyeSession::finishTaking(const Now& now, const Answer& answer, BlueyeOut
   respond(answer);
   // Else control would come later, when nobody expects it.
   const bool go_back = !answer.success && registered() && options_.observer && !as_observer_;
-  if (!go_back) return;
-  unregister(
-      now, id_, [this](const Now& at, BlueyeOutput& o) { registerClient(at, true, {}, o); }, out);
+  if (go_back && connected_ && !silent())
+    giveBack(
+        now, [](const Answer&) {}, out);
 }
 
 void BlueyeSession::releaseControl(const Now& now, Respond respond, BlueyeOutput& out) {
   if (silent()) return respond({false, leaving_ ? kLeaving : kRecord});
+  if (releasing_) return respond({false, kReleasing});
   if (!registered()) return respond({false, connected_ ? refusal() : kNoConnection});
   if (taking_ || registering_) return respond({false, "control is being asked for just now"});
   if (as_observer_) return respond({true, "this client is an observer"});
+  giveBack(now, std::move(respond), out);
+}
+
+// From here on no command is taken: it would cancel the zeros, and the drone keeps what it has.
+void BlueyeSession::giveBack(const Now& now, Respond respond, BlueyeOutput& out) {
+  releasing_ = std::move(respond);
+  confirmed_.failAll(kReleasing);
   endCommanding(now, true);
   held_.step(now, out);
+  const Then done = [this](const Now& at, BlueyeOutput&) {
+    if (!releasing_) return;
+    finishReleasing(at, {true, "control was given back; this client is an observer"});
+  };
   unregister(
-      now, id_,
-      [this, respond](const Now& at, BlueyeOutput& o) {
-        loseRegistration(at);
-        registerClient(
-            at, true,
-            [respond](const Now&, BlueyeOutput&) {
-              respond({true, "control was given back; this client is an observer"});
-            },
-            o);
-      },
+      now, id_, [this, done](const Now& at, BlueyeOutput& o) { registerClient(at, true, done, o); },
       out);
+}
+
+void BlueyeSession::finishReleasing(const Now& now, const Answer& answer) {
+  const Respond respond = std::move(*releasing_);
+  releasing_.reset();
+  respond(answer);
+  reportControl(now);
 }
 
 std::string BlueyeSession::refusalOf(std::string_view control_type) const {
@@ -634,12 +665,13 @@ vehicle::SteadyTime BlueyeSession::nextStep() const {
 
 void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   const bool in_control = inControl() && !options_.listen_only;
+  leaving_ = true;  // first, so that no answer begins anything anew
   requests_.failAll(now, kLeaving, out);
   confirmed_.failAll(kLeaving);
-  leaving_ = true;
   register_due_ = SteadyTime::max();
   watchdog_due_ = SteadyTime::max();
-  taking_.reset();
+  if (taking_) finishTaking(now, {false, kLeaving}, out);
+  if (releasing_) finishReleasing(now, {false, kLeaving});
   goodbye_said_ = !registered() || options_.listen_only;
   if (in_control) {
     held_.end(now.steady, true);
@@ -648,8 +680,7 @@ void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   }
   reportControl(now);
   if (goodbye_said_) return;
-  unregister(
-      now, id_, [this](const Now&, BlueyeOutput&) { goodbye_said_ = true; }, out);
+  unregister(now, id_, {}, out);
 }
 
 // --- Reports ---

@@ -187,6 +187,8 @@ class BlueyeSession {
   void askForConfirmations(const vehicle::Now& now, BlueyeOutput& out);
   void continueTaking(const vehicle::Now& now, BlueyeOutput& out);
   void finishTaking(const vehicle::Now& now, const Answer& answer, BlueyeOutput& out);
+  void giveBack(const vehicle::Now& now, Respond respond, BlueyeOutput& out);
+  void finishReleasing(const vehicle::Now& now, const Answer& answer);
 
   /// `in_order` with the replies: not on the telemetry connection.
   void hear(const vehicle::Now& now, std::string_view type, std::string_view payload, bool in_order,
@@ -232,6 +234,7 @@ class BlueyeSession {
   bool permitted_ = false;
   SteadyTime watchdog_due_ = SteadyTime::max();
   std::optional<Taking> taking_;
+  std::optional<Respond> releasing_;  ///< while control is being given back
   SteadyTime ask_confirmations_{};
   vehicle::MissionStatus::State mission_ = vehicle::MissionStatus::State::Unknown;
   std::optional<std::chrono::nanoseconds> drone_uptime_;

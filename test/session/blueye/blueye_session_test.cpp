@@ -222,6 +222,150 @@ TEST_P(OneAxis, GoesToItsFieldAloneAndKeepsItsSign) {
 INSTANTIATE_TEST_SUITE_P(Table, OneAxis, testing::ValuesIn(kAxes),
                          [](const auto& row) { return std::string{row.param.name}; });
 
+std::vector<bool> observersAsked(const ScriptedDrone& drone) {
+  std::vector<bool> observers;
+  for (const auto& sent : drone.requests) {
+    if (sent.type != "ConnectClientReq") continue;
+    pb::ConnectClientReq asked;
+    asked.ParseFromString(sent.payload);
+    observers.push_back(asked.client_info().is_observer());
+  }
+  return observers;
+}
+
+/// What takeControl() and releaseControl() are answered.
+struct Answers {
+  auto keep() {
+    return [this](const BlueyeSession::Answer& answer) { all.push_back(answer); };
+  }
+  std::vector<BlueyeSession::Answer> all;
+};
+
+TEST(BlueyeSession, ALinkLostWhileControlIsTakenLeavesNoRegistrationForTheNextOne) {
+  for (const std::size_t step : {0, 1}) {  // goodbye of the observer, registration anew
+    ScriptedDrone drone;
+    Answers answers;
+    drone.connect();
+    drone.run(1s);
+    drone.hold(step);
+    drone.session.takeControl(drone.now, answers.keep(), drone);
+    drone.run(20ms);
+    drone.loseLink();
+    ASSERT_EQ(answers.all.size(), 1u) << step;
+    EXPECT_FALSE(answers.all[0].success) << step;
+    drone.letGo();
+    drone.requests.clear();
+    drone.connect();
+    drone.run(3s);
+    EXPECT_THAT(observersAsked(drone), ElementsAre(true)) << step;
+    EXPECT_EQ(drone.in_control, 0u) << step;
+    EXPECT_THAT(drone.controls, IsEmpty()) << step;
+  }
+}
+
+TEST(BlueyeSession, LeavingWhileControlIsTakenRegistersNothing) {
+  ScriptedDrone drone;
+  Answers answers;
+  drone.connect();
+  drone.run(1s);
+  drone.hold();
+  drone.session.takeControl(drone.now, answers.keep(), drone);
+  drone.run(20ms);
+  drone.requests.clear();
+  drone.session.leave(drone.now, drone);
+  drone.letGo();
+  drone.run(200ms);
+  EXPECT_THAT(observersAsked(drone), IsEmpty());
+  ASSERT_EQ(answers.all.size(), 1u);
+  EXPECT_EQ(answers.all[0].message, "the driver is stopping");
+  EXPECT_TRUE(drone.session.hasLeft());
+}
+
+TEST(BlueyeSession, ReleasingUnderAStreamOfCommandsLeavesTheDroneAtRest) {
+  ScriptedDrone drone;
+  Answers answers;
+  drone.giveControl();
+  drone.run(2s);
+  EXPECT_EQ(drone.command(forward()), "");
+  drone.hold();
+  drone.session.releaseControl(drone.now, answers.keep(), drone);
+  for (int i = 0; i < 50; ++i) {  // a program that goes on while the drone takes its time
+    EXPECT_THAT(drone.command(forward()), HasSubstr("given back"));
+    drone.run(10ms);
+    EXPECT_TRUE(drone.isAtRest());
+  }
+  drone.letGo();
+  drone.run(10ms);
+  ASSERT_EQ(answers.all.size(), 1u);
+  EXPECT_TRUE(answers.all[0].success);
+  drone.controls.clear();
+  EXPECT_THAT(drone.command(forward()), HasSubstr("not in control"));
+  drone.run(5s);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_TRUE(drone.registry.back().observer);
+}
+
+TEST(BlueyeSession, ALinkLostWhileControlIsReleasedIsAnsweredAndLeavesAnObserver) {
+  ScriptedDrone drone;
+  Answers answers;
+  drone.giveControl();
+  drone.run(2s);
+  drone.hold();
+  drone.session.releaseControl(drone.now, answers.keep(), drone);
+  drone.run(20ms);
+  drone.loseLink();
+  ASSERT_EQ(answers.all.size(), 1u);
+  EXPECT_THAT(answers.all[0].message, HasSubstr("connection was lost"));
+  drone.letGo();
+  drone.requests.clear();
+  drone.controls.clear();
+  drone.connect();
+  drone.run(3s);
+  EXPECT_THAT(observersAsked(drone), ElementsAre(true));
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, FallsSilentWhenAnotherClientTakesControlWhileItIsReleased) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  drone.hold();
+  drone.session.releaseControl(
+      drone.now, [](const auto&) {}, drone);
+  drone.run(20ms);
+  drone.in_control = drone.addClient("Blueye App");
+  drone.tellClients();
+  drone.controls.clear();
+  drone.run(5s);
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, ControlThatComesAfterTheCallerWasToldItDidNotIsGivenBack) {
+  for (const std::size_t step : {0, 1, 2}) {  // own goodbye, registration, the other's goodbye
+    ScriptedDrone drone;
+    Answers answers;
+    const auto app = drone.addClient("Blueye App");
+    drone.connect();
+    drone.run(1s);
+    if (step == 1) drone.removeClient(app);  // then control comes with the registration
+    drone.hold(step);
+    drone.session.takeControl(drone.now, answers.keep(), drone);
+    drone.run(1500ms);  // control_timeout is 1 s, request_timeout 2 s
+    drone.letGo();
+    drone.run(200ms);
+    ASSERT_EQ(answers.all.size(), 1u) << step;
+    EXPECT_FALSE(answers.all[0].success) << step;
+    EXPECT_FALSE(drone.session.inControl()) << step;
+    ASSERT_TRUE(drone.session.registered()) << step;
+    EXPECT_TRUE(drone.registry.back().observer) << step;
+    EXPECT_NE(drone.in_control, drone.session.id()) << step;
+    EXPECT_THAT(drone.command(forward()), Not(IsEmpty())) << step;
+    drone.controls.clear();
+    drone.run(3s);
+    EXPECT_THAT(drone.controls, IsEmpty()) << step;
+  }
+}
+
 TEST(BlueyeSession, EndsAStaleCommandWithZerosWithinItsLimit) {
   ScriptedDrone drone;
   drone.giveControl();

@@ -85,7 +85,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   void turn() {
     if (now.steady >= session.nextStep()) session.step(now, *this);
     if (!under_way) return;
-    if (answers) {
+    if (answers && (held_request == 0 || requests.size() != held_request)) {
       const Sent request = under_way->request;
       under_way.reset();
       answer(request);
@@ -121,6 +121,10 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
     if (in_control == id) in_control = 0;
     promote();
   }
+
+  /// The next request but `others` is not answered until letGo().
+  void hold(std::size_t others = 0) { held_request = requests.size() + 1 + others; }
+  void letGo() { held_request = 0; }
 
   void tellClients() { tell(fill(pb::ConnectedClientsTel{})); }
 
@@ -179,6 +183,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   vehicle::Now now;
   BlueyeSession session;
   bool answers = true;
+  std::size_t held_request = 0;  ///< the request of this number (from 1) is not answered meanwhile
   bool link_takes = true;
   bool keeps_control = false;  ///< whoever is in control stays so, whatever is asked
   bool took_control = false;
