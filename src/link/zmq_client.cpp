@@ -188,7 +188,24 @@ class ZmqClient::Impl {
     reopen_at_ = Time::max();
     connect_due_ = now + options_.connect_timeout;
     connections_ = std::make_unique<std::array<Connection, kChannels>>();
-    for (std::size_t i = 0; i < kChannels; ++i) connect(static_cast<Channel>(i));
+    std::string failure;
+    for (std::size_t i = 0; i < kChannels && failure.empty(); ++i) {
+      failure = tryToConnect(static_cast<Channel>(i));
+    }
+    if (failure.empty()) return;
+    lose("");
+    handler_.onConnectFailed(failure);
+  }
+
+  /// What went wrong; empty if nothing did: a host that is none, or no files left, is no reason
+  /// to give up for good.
+  std::string tryToConnect(Channel channel) {
+    try {
+      connect(channel);
+      return {};
+    } catch (const zmq::error_t& error) {
+      return "cannot open a connection to " + endpoint(channel) + ": " + error.what();
+    }
   }
 
   void connect(Channel channel) {
@@ -231,7 +248,10 @@ class ZmqClient::Impl {
   }
 
   void drop(int linger_ms) {
-    if (connections_) setOption((*connections_)[kControl].socket, ZMQ_LINGER, linger_ms);
+    // Nothing to set where the socket could not be opened.
+    if (connections_ && static_cast<void*>((*connections_)[kControl].socket) != nullptr) {
+      setOption((*connections_)[kControl].socket, ZMQ_LINGER, linger_ms);
+    }
     connections_.reset();
     connected_ = false;
     reply_due_ = connect_due_ = silent_at_ = reopen_at_ = Time::max();
@@ -325,18 +345,20 @@ class ZmqClient::Impl {
   }
 
   // A REQ socket without its reply cannot send again, and a late reply must not be the next one's.
-  void replaceRequestSocket() {
+  std::string replaceRequestSocket() {
     reply_due_ = Time::max();
-    connect(kRequest);
+    std::string failure = tryToConnect(kRequest);
     (*connections_)[kRequest].up = true;  // as good as the last one; a failure shows as silence
+    return failure;
   }
 
   Time nextDeadline() const { return std::min({reply_due_, connect_due_, silent_at_, reopen_at_}); }
 
   void checkTime(Time now) {
     if (now >= reply_due_) {
-      replaceRequestSocket();
+      const std::string failure = replaceRequestSocket();
       handler_.onNoReply("no reply within " + inSeconds(request_timeout_));
+      if (!failure.empty()) lose(failure);
     }
     if (now >= silent_at_) lose("nothing heard for " + inSeconds(options_.silence_timeout));
     if (now >= connect_due_) {

@@ -4,8 +4,11 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
 #include <zmq.h>
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <thread>
@@ -265,6 +268,81 @@ TEST_F(ZmqLink, ReportsADroneThatIsNotThereAndFindsItLater) {
   drone_ = std::make_unique<Drone>(context_, options_);
   EXPECT_TRUE(runUntil([&] { return client_->connected(); }));
   EXPECT_THAT(recorder_.disconnected, IsEmpty());
+}
+
+TEST_F(ZmqLink, ReportsAHostThatIsNoneAndTriesAgain) {
+  for (const char* host : {"tcp://127.0.0.1", "127.0.0.1:5555", "a;b", ""}) {
+    recorder_.failed.clear();
+    options_ = ZmqClient::Options{};
+    options_.host = host;
+    options_.reconnect_min = 10ms;
+    options_.connect_timeout = 100ms;
+    client_ = std::make_unique<ZmqClient>(options_, recorder_);
+    ASSERT_NO_THROW(client_->start()) << host;
+    ASSERT_TRUE(runUntil([&] { return recorder_.failed.size() > 1; })) << host;
+    EXPECT_THAT(recorder_.failed[0], HasSubstr(host));
+    EXPECT_FALSE(client_->connected());
+    ASSERT_NO_THROW(client_->close()) << host;
+  }
+}
+
+/// No file can be opened while it lives.
+class NoMoreFiles {
+ public:
+  NoMoreFiles() {
+    getrlimit(RLIMIT_NOFILE, &before_);
+    rlimit few = before_;
+    few.rlim_cur = std::min<rlim_t>(few.rlim_cur, 256);
+    setrlimit(RLIMIT_NOFILE, &few);
+    takeAll();
+  }
+  /// Those as well that were closed since.
+  void takeAll() {
+    for (int file = dup(2); file >= 0; file = dup(2)) files_.push_back(file);
+  }
+  ~NoMoreFiles() {
+    for (const int file : files_) close(file);
+    setrlimit(RLIMIT_NOFILE, &before_);
+  }
+  NoMoreFiles(const NoMoreFiles&) = delete;
+  NoMoreFiles& operator=(const NoMoreFiles&) = delete;
+
+ private:
+  rlimit before_{};
+  std::vector<int> files_;
+};
+
+TEST_F(ZmqLink, SurvivesThatNoSocketCanBeOpened) {
+  start();
+  connect();
+  {
+    NoMoreFiles scarce;
+    client_->reconnect("test");
+    ASSERT_TRUE(runUntil([&] {
+      scarce.takeAll();
+      return !recorder_.failed.empty() &&
+             recorder_.failed.back().find("Too many open files") != std::string::npos;
+    }));
+    EXPECT_FALSE(client_->connected());
+  }
+  EXPECT_TRUE(runUntil([&] { return client_->connected(); }));
+}
+
+TEST_F(ZmqLink, LosesTheLinkWhenTheSocketOfALostReplyCannotBeReplaced) {
+  start();
+  connect();
+  {
+    NoMoreFiles scarce;
+    // The monitor that goes first may leave its files to its successor once.
+    ASSERT_TRUE(runUntil([&] {
+      scarce.takeAll();
+      client_->request("A", "1", 50ms);
+      return !recorder_.disconnected.empty();
+    }));
+    EXPECT_THAT(recorder_.disconnected[0], HasSubstr("Too many open files"));
+    EXPECT_FALSE(recorder_.lost.empty());
+  }
+  EXPECT_TRUE(runUntil([&] { return client_->connected(); }));
 }
 
 TEST_F(ZmqLink, ConnectsAfreshWhenItIsTold) {

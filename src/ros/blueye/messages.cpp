@@ -24,13 +24,18 @@ double radiansOf(double angle_deg) { return angle_deg * M_PI / 180.0; }
 /// Without -0.0.
 double negated(double value) { return 0.0 - value; }
 
+/// 0 for what is no duration: ros::Duration throws for it.
 ros::Duration secondsOf(double seconds) {
   ros::Duration out;
+  if (!std::isfinite(seconds)) return out;
   return out.fromSec(std::clamp(seconds, -2e9, 2e9));
 }
 
 ros::Time timeOf(const google::protobuf::Timestamp& time) {
-  return toRosTime(std::chrono::seconds{time.seconds()} + std::chrono::nanoseconds{time.nanos()});
+  // Any number may come; nanoseconds of it must fit into 64 bits, and ros::Time ends in 2106.
+  constexpr std::int64_t kEnd_s = 1LL << 32;
+  const std::chrono::seconds whole{std::clamp<std::int64_t>(time.seconds(), 0, kEnd_s)};
+  return toRosTime(whole + std::chrono::nanoseconds{time.nanos()});
 }
 
 bool isFinite(const pb::Vector3& vector) {

@@ -1,5 +1,7 @@
 #include "blueye/parameters.h"
 
+#include <arpa/inet.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -15,13 +17,29 @@ bool isGraphic(const std::string& text) {
                      [](char c) { return std::isgraph(static_cast<unsigned char>(c)) != 0; });
 }
 
+/// ZeroMQ reads more into a host than others: a transport, a source address, a wildcard.
+bool isHostName(const std::string& text) {
+  return !text.empty() && text.size() <= 255 && std::all_of(text.begin(), text.end(), [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '_';
+  });
+}
+
+/// With or without brackets and an interface.
+bool isIpv6(std::string text) {
+  if (text.size() > 2 && text.front() == '[' && text.back() == ']') {
+    text = text.substr(1, text.size() - 2);
+  }
+  const std::size_t zone = text.find('%');
+  if (zone != std::string::npos && !isHostName(text.substr(zone + 1))) return false;
+  in6_addr address{};
+  return inet_pton(AF_INET6, text.substr(0, zone).c_str(), &address) == 1;
+}
+
 link::ZmqClient::Options readLink(PrivateParameters& in) {
-  constexpr const char* kAccepted = "a host name or an address, without blanks,";
+  constexpr const char* kAccepted = "a host name or an address, without tcp:// and port,";
   link::ZmqClient::Options out;
   out.host = in.text("host", out.host, kAccepted);
-  if (out.host.empty() || out.host.size() > 255 || !isGraphic(out.host)) {
-    in.refuse("host", kAccepted);
-  }
+  if (!isHostName(out.host) && !isIpv6(out.host)) in.refuse("host", kAccepted);
   const auto port = [&in](const char* name, std::uint16_t fallback) {
     return static_cast<std::uint16_t>(in.integer(name, fallback, 1, 65535));
   };

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "blueye/messages.h"
 
@@ -162,6 +164,32 @@ TEST_F(Frames, ADvlWithoutAValidBeamHasNoVelocity) {
   told.mutable_dvl_velocity()->mutable_transducers(0)->set_beam_valid(false);
   EXPECT_FALSE(toDvlTwist(told, context()));
   EXPECT_TRUE(std::isnan(toDvl(told, context())->velocity.x));
+}
+
+TEST_F(Frames, DurationsThatAreNoneAreZeroAndThrowNothing) {
+  for (const double wrong : {static_cast<double>(NAN), HUGE_VAL, -HUGE_VAL}) {
+    auto told = dvl(1.0, 2.0, 3.0);
+    told.mutable_dvl_velocity()->set_delta_time(static_cast<float>(wrong));
+    EXPECT_EQ(toDvl(told, context())->interval, ros::Duration());
+    pb::ReferenceAutoPilotTel pilot;
+    pilot.mutable_reference_auto_pilot()->set_time_to_complete(static_cast<float>(wrong));
+    EXPECT_EQ(toAutoPilot(pilot, context())->remaining, ros::Duration());
+  }
+  auto far = dvl(1.0, 2.0, 3.0);
+  far.mutable_dvl_velocity()->set_delta_time(3e38F);
+  EXPECT_NO_THROW(toDvl(far, context()));
+}
+
+TEST_F(Frames, TimesThatNoClockTellsAreTheNearestThatThereIs) {
+  pb::DroneTimeTel told;
+  auto& time = *told.mutable_real_time_clock()->mutable_unix_timestamp();
+  time.set_seconds(std::numeric_limits<std::int64_t>::max());
+  EXPECT_GT(toTimeReference(told, context())->time_ref.toSec(), 4e9);
+  time.set_seconds(std::numeric_limits<std::int64_t>::min());
+  EXPECT_EQ(toTimeReference(told, context())->time_ref, ros::Time());
+  time.set_seconds(1700000000);
+  time.set_nanos(500000000);
+  EXPECT_EQ(toTimeReference(told, context())->time_ref, ros::Time(1700000000, 500000000));
 }
 
 TEST_F(Frames, ADvlThatKeepsDisagreeingIsReportedOnce) {
