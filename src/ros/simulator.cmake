@@ -1,6 +1,6 @@
 find_path(CLI11_INCLUDE_DIR CLI/CLI.hpp)
 if(NOT CLI11_INCLUDE_DIR)
-  message(FATAL_ERROR "CLI11 was not found; install libcli11-dev")
+  message(FATAL_ERROR "CLI11 was not found; install libcli11-dev, or put include/CLI of https://github.com/CLIUtils/CLI11 into /usr/local/include")
 endif()
 
 # What all simulators have in common.
