@@ -15,10 +15,17 @@ using namespace std::chrono_literals;
 constexpr nanoseconds kBucket = 1s;
 // Enough seconds for a slope that is better than none.
 constexpr std::size_t kDriftBuckets = 10;
-constexpr std::int64_t kJitterWeight = 64;
+constexpr std::uint64_t kJitterWeight = 64;
 constexpr double kMostDrift = ClockOffset::kMostDrift_ppm * 1e-6;
-// Usual delays differ by less.
+// Delays of a good link differ by less.
 constexpr nanoseconds kTogether = 50ms;
+// Drift, rounding and a good link's delays stay below.
+constexpr nanoseconds kSmallestStep = 20ms;
+// Seconds that show how late the earliest sample of one can be.
+constexpr std::size_t kSettledBuckets = 10;
+// A small step is told from a run of long delays by more of them.
+constexpr std::uint64_t kSmallStepSamples = 20;
+constexpr nanoseconds kSmallStepPatience = 2s;
 
 double seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -35,8 +42,8 @@ void ClockOffset::take(TimeOfDay sent_at, UtcTime arrival) {
   const Bucket& newest = buckets_[newest_];
   const bool nothing_recent = arrival < newest.at || arrival > newest.at + kWindow;
   const nanoseconds late = offset - offsetAt(arrival);
-  if (nothing_recent || late < -kStep) {
-    steps_ += late < -kStep || late > kStep ? 1 : 0;
+  if (nothing_recent || late < -least_step_) {
+    steps_ += late < -least_step_ || late > kStep ? 1 : 0;
     return startAgain(offset, arrival);
   }
   if (lateForLong(late, offset, arrival)) {
@@ -44,7 +51,10 @@ void ClockOffset::take(TimeOfDay sent_at, UtcTime arrival) {
     return startAgain(least_late_offset_, arrival);
   }
   ++samples_;
-  jitter_ += (std::max(late, nanoseconds::zero()) - jitter_) / kJitterWeight;
+  if (late <= kStep) {
+    const auto weight = static_cast<nanoseconds::rep>(std::min(samples_, kJitterWeight));
+    jitter_ += (std::max(late, nanoseconds::zero()) - jitter_) / weight;
+  }
   put(offset, arrival);
 }
 
@@ -54,28 +64,31 @@ UtcTime ClockOffset::unwrapped(TimeOfDay time, UtcTime arrival) const {
   return resolveDate(time, arrival - last_offset_.value_or(nanoseconds::zero()));
 }
 
-// After a step the samples lie close to each other at their new place, one after another. What a
-// network has held back comes in a rush, each less late than the one before, and a rush may follow
-// on another without an early one in between.
+// After a step the samples lie close to each other at their new place, one after another, as close
+// as the delays of the link let them. What a network has held back comes in a rush, each less late
+// than the one before, and a rush may follow on another without an early one in between.
 bool ClockOffset::lateForLong(nanoseconds late, nanoseconds offset, UtcTime arrival) {
-  if (late <= kStep) {
+  if (late <= least_step_) {
     late_since_.reset();
     return false;
   }
-  if (!late_since_) {
+  const nanoseconds together = std::max(kTogether, 2 * jitter_);
+  const bool near = late_since_ && offset <= together_near_ + together;
+  const bool outvoted = late_since_ && !near && 2 * together_ <= late_samples_ + 1;
+  if (!late_since_ || outvoted || offset < together_near_ - together) {
     late_since_ = arrival;
-    late_samples_ = 0;
-    least_late_offset_ = nanoseconds::max();
+    together_near_ = least_late_offset_ = offset;
+    late_samples_ = together_ = 1;
+    return false;
   }
-  if (offset < least_late_offset_ - kTogether) {
-    together_ = 0;
-    together_since_ = arrival;
-  }
-  least_late_offset_ = std::min(least_late_offset_, offset);
   ++late_samples_;
-  if (offset >= least_late_offset_ + kTogether) return false;
+  if (!near) return false;
   ++together_;
-  return arrival - together_since_ >= kStepPatience && 2 * together_ > late_samples_;
+  least_late_offset_ = std::min(least_late_offset_, offset);
+  const bool small = least_late_offset_ - offsetAt(arrival) <= kStep;
+  if (small && together_ < kSmallStepSamples) return false;
+  const nanoseconds patience = small ? kSmallStepPatience : kStepPatience;
+  return arrival - *late_since_ >= patience;
 }
 
 void ClockOffset::startAgain(nanoseconds offset, UtcTime arrival) {
@@ -83,7 +96,7 @@ void ClockOffset::startAgain(nanoseconds offset, UtcTime arrival) {
   newest_ = 0;
   drift_ = 0.0;
   samples_ = 1;
-  jitter_ = nanoseconds::zero();
+  least_step_ = kStep;
   late_since_.reset();
   put(offset, arrival);
 }
@@ -100,6 +113,7 @@ void ClockOffset::put(nanoseconds offset, UtcTime arrival) {
   buckets_[newest_] = {arrival, arrival, offset};
   fitDrift();
   findLeast(arrival);
+  if (!late_since_) findLeastStep(arrival);
 }
 
 // The line under all samples that is closest to them: the edge of their lower convex hull above the
@@ -142,6 +156,19 @@ void ClockOffset::findLeast(UtcTime arrival) {
     const Bucket& bucket = buckets_[i];
     const bool earlier = bucket.offset + scaled(arrival - bucket.at, drift_) < offsetAt(arrival);
     if (earlier && arrival - bucket.at <= kWindow) least_ = bucket;
+  }
+}
+
+// Only what is beyond all that the link has shown can be a step: for a second after another nothing
+// came as early as usual.
+void ClockOffset::findLeastStep(UtcTime arrival) {
+  if (used_ <= kSettledBuckets) return;
+  least_step_ = kSmallestStep;
+  for (std::size_t i = 0; i < used_; ++i) {
+    const Bucket& bucket = buckets_[i];
+    if (i == newest_ || arrival - bucket.at > kWindow) continue;  // the newest has only begun
+    const nanoseconds late = bucket.offset - offsetAt(bucket.at);
+    least_step_ = std::max(least_step_, std::min<nanoseconds>(late + late / 2, kStep));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
+#include <tuple>
 #include <vector>
 
 #include "frontseat_driver/vehicle/date_resolution.h"
@@ -21,6 +23,14 @@ constexpr UtcTime kStart = std::chrono::seconds{1778450400};
 double milliseconds(nanoseconds duration) {
   return std::chrono::duration<double, std::milli>(duration).count();
 }
+
+/// How long a sentence takes.
+enum class Link {
+  Lognormal,    ///< median 5 ms, 1 % above 200 ms
+  Uniform,      ///< 0 to 200 ms
+  Exponential,  ///< mean 80 ms
+  Constant,     ///< 5 ms
+};
 
 /// A vehicle whose clock is off and drifts, behind a network that delays in order.
 class Vehicle {
@@ -46,6 +56,7 @@ class Vehicle {
 
   nanoseconds clock_error = 5h + 18s;
   double drift_ppm = 50.0;
+  Link link = Link::Lognormal;
 
  private:
   nanoseconds scaledDrift() const {
@@ -53,17 +64,29 @@ class Vehicle {
     return nanoseconds{std::llround(elapsed * drift_ppm * 1e-6)};
   }
 
-  // Lognormal: median 5 ms, 1 % above 200 ms.
-  nanoseconds delay() {
+  nanoseconds delay() { return nanoseconds{std::llround(delay_s() * 1e9)}; }
+
+  double delay_s() {
     constexpr double kSigma = 1.5857;  // ln(200 / 5) / 2.3263
-    const double delay_s = 0.005 * std::exp(kSigma * normal_(random_));
-    return nanoseconds{std::llround(delay_s * 1e9)};
+    switch (link) {
+      case Link::Lognormal:
+        return 0.005 * std::exp(kSigma * normal_(random_));
+      case Link::Uniform:
+        return uniform_(random_);
+      case Link::Exponential:
+        return exponential_(random_);
+      case Link::Constant:
+        return 0.005;
+    }
+    return 0.0;
   }
 
   UtcTime now_ = kStart;
   UtcTime last_arrival_{};
   std::mt19937_64 random_;
   std::normal_distribution<double> normal_;
+  std::uniform_real_distribution<double> uniform_{0.0, 0.2};
+  std::exponential_distribution<double> exponential_{1.0 / 0.08};
 };
 
 struct Row {
@@ -155,6 +178,63 @@ TEST_P(Stepped, AClockStepIsAbsorbedWithinTwoSeconds) {
 INSTANTIATE_TEST_SUITE_P(Table, Stepped,
                          testing::Values(3s, -3s, 1s, -1s, 3600s, -3600s, 40000s, -40000s));
 
+struct Jittery {
+  const char* name;
+  Link link;
+  double tolerance_ms;  ///< what a fresh estimate of this link may be off by
+};
+
+class SteppedLink : public testing::TestWithParam<std::tuple<Jittery, std::chrono::milliseconds>> {
+};
+
+TEST_P(SteppedLink, AStepIsAbsorbedWithinSeconds) {
+  const auto& [link, step] = GetParam();
+  const bool small = std::chrono::abs(step) < ClockOffset::kStep;
+  int missed = 0;
+  for (std::uint64_t seed = 41; seed < 51; ++seed) {
+    Vehicle vehicle{seed};
+    vehicle.link = link.link;
+    ClockOffset estimate;
+    const auto run = [&](nanoseconds duration) {
+      double worst_ms = 0.0;
+      const UtcTime end = vehicle.now() + duration;
+      while (vehicle.now() < end) {
+        const Vehicle::Sample sample = vehicle.next(50ms);
+        estimate.take(sample.sent_at, sample.arrival);
+        const UtcTime stamp = *estimate.toHost(sample.sent_at, sample.arrival);
+        worst_ms = std::max(worst_ms, std::abs(milliseconds(stamp - sample.truth)));
+      }
+      return worst_ms;
+    };
+    run(60s);
+    const std::uint64_t steps = estimate.state().steps;
+    EXPECT_LT(run(60s), link.tolerance_ms) << "seed " << seed;
+    EXPECT_EQ(estimate.state().steps, steps) << "seed " << seed;
+    vehicle.clock_error += step;
+    run(small ? 6s : 4s);
+    missed += run(54s) < link.tolerance_ms ? 0 : 1;
+  }
+  // A link that was as late lately may hide a small step.
+  EXPECT_LE(missed, small ? 3 : 0);
+}
+
+const Jittery kLinks[] = {{"lognormal", Link::Lognormal, 20.0},
+                          {"uniform", Link::Uniform, 90.0},
+                          {"exponential", Link::Exponential, 90.0},
+                          {"constant", Link::Constant, 7.0}};
+
+INSTANTIATE_TEST_SUITE_P(Table, SteppedLink,
+                         testing::Combine(testing::ValuesIn(kLinks),
+                                          testing::Values(100ms, -100ms, 200ms, -200ms, 500ms,
+                                                          -500ms, 3000ms, -3000ms, 3600000ms,
+                                                          -3600000ms)),
+                         [](const auto& row) {
+                           const auto step = std::get<1>(row.param).count();
+                           return std::string{std::get<0>(row.param).name} +
+                                  (step < 0 ? "_back_" : "_forth_") +
+                                  std::to_string(std::abs(step)) + "_ms";
+                         });
+
 TEST(ClockOffset, ABurstAfterAStallIsNoStep) {
   ClockOffset estimate;
   UtcTime sent = kStart;
@@ -166,6 +246,26 @@ TEST(ClockOffset, ABurstAfterAStallIsNoStep) {
   }
   EXPECT_EQ(estimate.state().steps, 0u);
 }
+
+class Stalled : public testing::TestWithParam<std::chrono::milliseconds> {};
+
+TEST_P(Stalled, StallsInARowAreNoStep) {
+  const std::chrono::milliseconds period = GetParam();
+  ClockOffset estimate;
+  UtcTime sent = kStart;
+  for (; sent < kStart + 30s; sent += period) estimate.take(timeOfDay(sent), sent + 1ms);
+  for (int stall = 0; stall < 5; ++stall) {
+    const UtcTime ends = sent + 1500ms;
+    // Each holds back all but the last 40 ms, which the next one delays.
+    for (; sent < ends - 40ms; sent += period) {
+      estimate.take(timeOfDay(sent), ends);
+      EXPECT_EQ(*estimate.toHost(timeOfDay(sent), ends), sent + 1ms);
+    }
+  }
+  EXPECT_EQ(estimate.state().steps, 0u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, Stalled, testing::Values(10ms, 50ms, 100ms, 500ms));
 
 TEST(ClockOffset, TheHostsOwnStepIsFollowed) {
   ClockOffset estimate;

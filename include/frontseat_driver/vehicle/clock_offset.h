@@ -18,14 +18,16 @@ namespace frontseat_driver::vehicle {
 /// constant part of the delay cannot be seen and stays in the stamps. Which day the vehicle's time
 /// of day belongs to, and what zone or scale its clock is in, does not matter: any constant is
 /// learned. A step of either clock shows as samples that all are early, believed at once, or that
-/// all are late for kStepPatience, longer than a network holds back everything.
+/// all are late for kStepPatience, longer than a network holds back everything, and as close
+/// together as the link's jitter lets them. A step below kStep is told from a run of long delays by
+/// at least 20 samples in 2 s, later than the earliest of any second was lately.
 class ClockOffset {
  public:
   using TimeOfDay = std::chrono::microseconds;
 
   static constexpr std::chrono::seconds kWindow{60};
   static constexpr std::chrono::seconds kStepPatience{1};
-  static constexpr std::chrono::milliseconds kStep{250};  ///< less is delay or drift
+  static constexpr std::chrono::milliseconds kStep{250};  ///< more is no usual delay of any link
   static constexpr double kMostDrift_ppm = 500.0;         ///< no clock with a crystal is worse
 
   /// A sentence that the vehicle made at `sent_at` of its clock has arrived.
@@ -64,6 +66,7 @@ class ClockOffset {
   void put(std::chrono::nanoseconds offset, UtcTime arrival);
   void fitDrift();
   void findLeast(UtcTime arrival);
+  void findLeastStep(UtcTime arrival);
   static double slope(const Bucket& from, const Bucket& to);
 
   std::array<Bucket, kBuckets> buckets_;
@@ -73,15 +76,16 @@ class ClockOffset {
   std::optional<std::chrono::nanoseconds> last_offset_;  ///< of the newest sample; tells the day
   double drift_ = 0.0;
   std::chrono::nanoseconds jitter_{};
+  std::chrono::nanoseconds least_step_ = kStep;  ///< of what the link's delays do not explain
   std::uint64_t samples_ = 0;
   std::uint64_t steps_ = 0;
 
-  // Samples that have all been late since.
+  // Samples that have all been late since, most of them near the first and none much before it.
   std::optional<UtcTime> late_since_;
+  std::chrono::nanoseconds together_near_{};  ///< the first one's offset
   std::chrono::nanoseconds least_late_offset_{};
   std::uint64_t late_samples_ = 0;
-  std::uint64_t together_ = 0;  ///< those near the least
-  UtcTime together_since_{};
+  std::uint64_t together_ = 0;  ///< those near the first, the first included
 };
 
 }  // namespace frontseat_driver::vehicle
