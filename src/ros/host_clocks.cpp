@@ -10,10 +10,12 @@ namespace frontseat_driver::ros_layer {
 
 vehicle::Now HostClocks::read() {
   const ros::Time ros_time = ros::Time::now();
-  const vehicle::UtcTime utc = ros::Time::isSimTime()
-                                   ? std::chrono::system_clock::now().time_since_epoch()
-                                   : toUtcTime(ros_time);
-  return {std::chrono::steady_clock::now(), utc, toUtcTime(guard_.clamp(ros_time))};
+  const bool simulated = ros::Time::isSimTime();
+  const vehicle::UtcTime utc =
+      simulated ? std::chrono::system_clock::now().time_since_epoch() : toUtcTime(ros_time);
+  const vehicle::UtcTime stamp = toUtcTime(guard_.clamp(ros_time));
+  simulated_behind_ = simulated ? stamp - toUtcTime(ros_time) : std::chrono::nanoseconds{0};
+  return {std::chrono::steady_clock::now(), utc, stamp};
 }
 
 }  // namespace frontseat_driver::ros_layer

@@ -216,6 +216,7 @@ void NmeaBridge::publishLink(const vehicle::Now& now) {
 
 Health NmeaBridge::reportHealth(const vehicle::Now& now) {
   Health health = monitor_.take(now, publisher_.builder(), publisher_.takeHeldBack());
+  health.clock.simulated_behind_s = inSeconds(clocks_.simulatedBehind());
   // The timer that publishes it goes by the steady clock, also while a record is played.
   diagnostics_.set(health, std::chrono::steady_clock::now());
   return health;

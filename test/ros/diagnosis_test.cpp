@@ -122,6 +122,20 @@ const Row kRows[] = {
        h.clock.step_ago_s = 4.0;
      },
      "clock", Level::Ok, "stepped 4 s ago"},
+    {"vehicle_set_back", [](auto& h) { h.clock.held_back_s = 7.0; }, "clock", Level::Error,
+     "stand still for 7 s more: the vehicle's clock was set back"},
+    {"computer_set_back",
+     [](auto& h) {
+       h.clock.held_back_s = 7.0;
+       h.clock.computer_set_back = true;
+     },
+     "clock", Level::Error, "stand still for 7 s more: this computer's clock was set back"},
+    {"simulated_clock_set_back",
+     [](auto& h) {
+       h.clock.simulated_behind_s = 60.0;
+       h.clock.ros_clock_stands = true;
+     },
+     "clock", Level::Error, "/clock was set back by 60 s"},
     {"many_steps", [](auto& h) { h.clock.steps_lately = 5; }, "clock", Level::Warn,
      "stepped 5 times in the last minute"},
     {"no_time_told", [](auto& h) { h.clock.vehicle_ahead_s.reset(); }, "clock", Level::Ok,

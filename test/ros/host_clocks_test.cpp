@@ -40,8 +40,10 @@ TEST_F(HostClock, StampsNeverGoBack) {
   const vehicle::Now after = clocks.read();
   EXPECT_EQ(after.stamp, before.stamp);
   EXPECT_GE(after.steady, before.steady);
+  EXPECT_EQ(clocks.simulatedBehind(), std::chrono::seconds{60});
   ros::Time::setNow(ros::Time{101});
   EXPECT_EQ(toRosTime(clocks.read().stamp), ros::Time(101));
+  EXPECT_EQ(clocks.simulatedBehind(), std::chrono::seconds{0});
 }
 
 }  // namespace

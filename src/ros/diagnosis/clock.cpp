@@ -10,6 +10,8 @@ using Level = Diagnosis::Level;
 
 // More than the clocks of two computers without NTP differ after a day.
 constexpr double kOffsetWarned_s = 5.0;
+// More than a simulator's clock wavers.
+constexpr double kSimulatedBehind_s = 0.5;
 // A vehicle sets its clock when it gets its first GPS fix, which is normal; this is not.
 constexpr std::size_t kStepsWarned = 3;
 constexpr double kQuarterHour_s = 900.0;
@@ -62,7 +64,13 @@ void judge(const Health& health, Diagnosis& diagnosis) {
   const ClockHealth& clock = health.clock;
   const bool off = clock.vehicle_ahead_s && std::abs(*clock.vehicle_ahead_s) > kOffsetWarned_s;
   diagnosis.level = Level::Warn;
-  if (clock.ros_clock_stands) {
+  if (clock.simulated_behind_s > kSimulatedBehind_s) {
+    diagnosis.level = Level::Error;
+    diagnosis.message = printed(
+        "stamps and tf stand still: /clock was set back by %.0f s, and stamps never go back; "
+        "restart the driver",
+        clock.simulated_behind_s);
+  } else if (clock.ros_clock_stands) {
     diagnosis.message =
         "the ROS clock stands still, and all stamps with it: /use_sim_time is true, and /clock "
         "does "
@@ -73,7 +81,7 @@ void judge(const Health& health, Diagnosis& diagnosis) {
         "stamps and tf stand still for %.0f s more: %s was set back, and stamps never go back; "
         "wait, or restart the driver and all that uses tf",
         clock.held_back_s,
-        health.stamp == StampMode::Vehicle ? "the vehicle's clock" : "this computer's clock");
+        clock.computer_set_back ? "this computer's clock" : "the vehicle's clock");
   } else if (clock.steps_lately >= kStepsWarned) {
     diagnosis.message = printed(
         "the vehicle's clock, or this computer's, stepped %zu times in the last minute: does the "

@@ -27,6 +27,8 @@ ClockHealth ClockWatch::take(const vehicle::Now& now, const vehicle::ClockOffset
   health.ros_clock_stands = stands && !set_back;
   if (set_back) held_back = now.stamp - now.utc;
   held_back_in_a_row_ = held_back > kHeldBack ? held_back_in_a_row_ + 1 : 0;
+  computer_set_back_ = held_back_in_a_row_ > 0 && (set_back || computer_set_back_);
+  health.computer_set_back = computer_set_back_;
   if (held_back_in_a_row_ >= kHeldBackCalls) health.held_back_s = inSeconds(held_back);
   if (offset.samples == 0) return health;
   const bool stepped = std::exchange(steps_, offset.steps) != offset.steps;

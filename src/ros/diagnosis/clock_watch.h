@@ -31,6 +31,7 @@ class ClockWatch {
   std::optional<vehicle::SteadyTime> learning_since_;
   std::optional<vehicle::UtcTime> last_stamp_;
   int held_back_in_a_row_ = 0;
+  bool computer_set_back_ = false;  ///< seen while held back
   std::uint64_t steps_ = 0;
   std::deque<vehicle::SteadyTime> recent_steps_;  ///< at most one for each call in kLately
 };

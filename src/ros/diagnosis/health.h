@@ -33,7 +33,9 @@ struct ClockHealth {
   std::optional<double> step_ago_s;       ///< the last time that one of the clocks stepped
   std::size_t steps_lately = 0;           ///< in the last minute
   double held_back_s = 0.0;               ///< stamps that would have gone back by so much
+  bool computer_set_back = false;         ///< and that is what holds the stamps back
   bool ros_clock_stands = false;
+  double simulated_behind_s = 0.0;  ///< how far /clock was set back behind the latest stamp
 };
 
 /// One bank of cells.
