@@ -30,9 +30,16 @@ geometry_msgs::TransformStamped rotation(const ros::Time& stamp, const std::stri
 
 MessageBuilder::MessageBuilder(const Parameters& parameters)
     : parameters_(parameters), stamper_(parameters.stamp), filter_(parameters.max_jump_m_s) {
-  stamper_.setLeapSeconds(parameters.leap_seconds.value_or(std::chrono::seconds(0)));
-  if (parameters.session.dialect) setDialect(*parameters.session.dialect);
-  if (parameters.datum) setDatum(*parameters.datum);
+  startAfresh();
+}
+
+void MessageBuilder::startAfresh() {
+  reset();
+  dialect_.reset();
+  stamper_.setLeapSeconds(parameters_.leap_seconds.value_or(std::chrono::seconds(0)));
+  if (parameters_.session.dialect) setDialect(*parameters_.session.dialect);
+  datum_.reset();
+  if (parameters_.datum) setDatum(*parameters_.datum);
 }
 
 void MessageBuilder::setDialect(protocol::Dialect dialect) {

@@ -66,6 +66,9 @@ class MessageBuilder {
   /// Forgets stamps and data, not the datum: for a replay that starts again, where time goes back.
   void reset();
 
+  /// Forgets all but the parameters: for a replay of a driver that was restarted.
+  void startAfresh();
+
   void take(const vehicle::ClockSample& clock, const vehicle::Now& arrival);
   void take(const vehicle::GpsFix& fix, const vehicle::Now& arrival);
   void take(const vehicle::GpsVelocity& velocity, const vehicle::Now& arrival);

@@ -61,7 +61,8 @@ NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::
   reportHealth(clocks_.read());
   driver::Listener& listener = *this;
   if (parameters.source == Source::Topic) {
-    replay_ = std::make_unique<Replay>(session_, listener, [this] { startRecordAgain(); });
+    replay_ = std::make_unique<Replay>(session_, listener,
+                                       [this](Restart what) { startRecordAgain(what); });
   } else {
     driver_ = std::make_unique<driver::Driver>(parameters.link, session_, listener,
                                                [this] { return clocks_.read(); });
@@ -90,8 +91,12 @@ void NmeaBridge::post(SessionTask task) {
       [this, task = std::move(task)](const vehicle::Now& now) { task(now, driver_->output()); });
 }
 
-void NmeaBridge::startRecordAgain() {
-  publisher_.reset();
+void NmeaBridge::startRecordAgain(Restart what) {
+  if (what == Restart::Driver) {
+    publisher_.startAfresh();
+  } else {
+    publisher_.reset();
+  }
   last_heard_.reset();
   jump_log_ = {};
   connect_log_ = {};
@@ -100,9 +105,11 @@ void NmeaBridge::startRecordAgain() {
   transitions_ = {};
 }
 
-// A record is a record: what is replayed keeps its name.
+// A record is a record: what is replayed keeps its name. Each run of a driver counts from 1, so its
+// begin tells two runs in one record apart.
 std::string NmeaBridge::connection() const {
-  return replay_ ? replay_->connection() : "connection_" + std::to_string(connects_);
+  if (replay_) return replay_->connection();
+  return printed("connection_%u@%.3f", connects_, inSeconds(started_));
 }
 
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {

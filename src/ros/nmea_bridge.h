@@ -50,7 +50,7 @@ class NmeaBridge : private driver::Listener {
   void onTick(const vehicle::Now& now) override;
 
   void post(SessionTask task);
-  void startRecordAgain();
+  void startRecordAgain(Restart what);
   std::string connection() const;
   void followDialect();
   void watchCompass(const vehicle::Now& now, const vehicle::Event& event);
@@ -59,6 +59,7 @@ class NmeaBridge : private driver::Listener {
   Health reportHealth(const vehicle::Now& now);
 
   HostClocks clocks_;
+  const vehicle::UtcTime started_ = clocks_.read().utc;
   const std::string name_;
   session::NmeaSession session_;
   VehiclePublisher publisher_;

@@ -20,20 +20,29 @@ vehicle::Now recordedTime(vehicle::UtcTime stamp) {
   return {vehicle::SteadyTime{stamp}, stamp, stamp};
 }
 
+/// Which run of a driver a connection belongs to: `connection_1@1778450400.123` to the one that
+/// began then. Empty in older records and in names that others gave.
+std::string_view driverOf(std::string_view connection) {
+  constexpr std::string_view kOurs = "connection_";
+  const std::size_t at = connection.find('@');
+  if (connection.substr(0, kOurs.size()) != kOurs || at == connection.npos) return {};
+  return connection.substr(at + 1);
+}
+
 }  // namespace
 
 RecordPlayer::RecordPlayer(session::Session& session, driver::Listener& listener,
-                           std::function<void()> on_restart)
+                           std::function<void(Restart)> on_restart)
     : session_(session), listener_(listener), on_restart_(std::move(on_restart)) {}
 
 void RecordPlayer::play(const RecordedLine& recorded) {
   vehicle::Now now = recordedTime(recorded.stamp);
   if (!last_) {
     begin(now, recorded);
+  } else if (driverOf(recorded.connection) != driverOf(connection_)) {
+    beginAnew(now, recorded, Restart::Driver);
   } else if (now.stamp < last_->stamp - kRestart) {
-    end(*last_, "the record starts again");
-    on_restart_();
-    begin(now, recorded);
+    beginAnew(now, recorded, Restart::Record);
   } else if (recorded.connection != connection_) {
     now = recordedTime(std::max(now.stamp, last_->stamp));
     end(now, "the recorded connection ended");
@@ -59,6 +68,13 @@ void RecordPlayer::begin(const vehicle::Now& now, const RecordedLine& recorded) 
   next_tick_ = now.stamp + kTick;
   listener_.onConnected(now, topics::kNmeaReplay);
   session_.connected(now, *this);
+}
+
+void RecordPlayer::beginAnew(const vehicle::Now& now, const RecordedLine& recorded, Restart what) {
+  end(*last_,
+      what == Restart::Driver ? "the recorded driver was restarted" : "the record starts again");
+  on_restart_(what);
+  begin(now, recorded);
 }
 
 void RecordPlayer::end(const vehicle::Now& now, const char* reason) {

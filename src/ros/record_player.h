@@ -17,14 +17,17 @@ struct RecordedLine {
   std::string_view line;        ///< from the `$` on, without the line end
 };
 
+/// What of a record begins anew: it plays from an earlier time, or its driver was restarted.
+enum class Restart { Record, Driver };
+
 /// Plays a record of `nmea/rx` into a session in the place of a link. All times are those of the
 /// record, so the same comes out at any speed; nothing is ever sent. No thread, no clock.
 class RecordPlayer : private session::Output {
  public:
-  /// Session and listener must outlive this. `on_restart` is called where the record starts again
-  /// from an earlier time, before anything of it is told.
+  /// Session and listener must outlive this. `on_restart` is called before anything of what begins
+  /// anew is told.
   RecordPlayer(session::Session& session, driver::Listener& listener,
-               std::function<void()> on_restart);
+               std::function<void(Restart)> on_restart);
 
   void play(const RecordedLine& recorded);
 
@@ -36,6 +39,7 @@ class RecordPlayer : private session::Output {
 
  private:
   void begin(const vehicle::Now& now, const RecordedLine& recorded);
+  void beginAnew(const vehicle::Now& now, const RecordedLine& recorded, Restart what);
   void end(const vehicle::Now& now, const char* reason);
   void tickUntil(const vehicle::Now& now);
 
@@ -46,7 +50,7 @@ class RecordPlayer : private session::Output {
 
   session::Session& session_;
   driver::Listener& listener_;
-  std::function<void()> on_restart_;
+  std::function<void(Restart)> on_restart_;
   std::optional<vehicle::Now> last_;
   std::string connection_;
   std::string line_;

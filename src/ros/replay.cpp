@@ -15,7 +15,7 @@ constexpr std::uint32_t kUnlimited = 0;
 }  // namespace
 
 Replay::Replay(session::Session& session, driver::Listener& listener,
-               std::function<void()> on_restart)
+               std::function<void(Restart)> on_restart)
     : player_(session, listener, std::move(on_restart)) {}
 
 void Replay::start(ros::NodeHandle node) {

@@ -16,7 +16,8 @@ namespace frontseat_driver::ros_layer {
 class Replay {
  public:
   /// As RecordPlayer; begins to listen at start().
-  Replay(session::Session& session, driver::Listener& listener, std::function<void()> on_restart);
+  Replay(session::Session& session, driver::Listener& listener,
+         std::function<void(Restart)> on_restart);
 
   void start(ros::NodeHandle node);
 

@@ -31,6 +31,9 @@ class VehiclePublisher : private MessageOutlet {
   /// Time starts again, as in a replay that is repeated.
   void reset() { messages_.builder().reset(); }
 
+  /// A restarted driver takes over, as in a replay of two.
+  void startAfresh() { messages_.builder().startAfresh(); }
+
   void publish(const vehicle::Now& arrival, const vehicle::Event& event) {
     messages_.take(arrival, event, *this);
   }

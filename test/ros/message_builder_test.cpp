@@ -156,6 +156,23 @@ TEST_F(Builder, HasNothingToSayAtFirst) {
   EXPECT_FALSE(boat_.datum());
 }
 
+TEST_F(Builder, KeepsItsDatumOnlyWhileItsDriverIsTheSame) {
+  boat_.take(navigationAt(kHarbor), at(0s));
+  ASSERT_TRUE(boat_.datum());
+  boat_.reset();
+  EXPECT_TRUE(boat_.datum());
+  boat_.startAfresh();
+  EXPECT_FALSE(boat_.datum());
+
+  Parameters parameters = parametersFor(Dialect::Kingfisher);
+  parameters.datum = kHarbor;
+  MessageBuilder given{parameters};
+  given.setDatum({1.0, 2.0});
+  given.startAfresh();
+  ASSERT_TRUE(given.datum());
+  EXPECT_EQ(given.datum()->latitude_deg, kHarbor.latitude_deg);
+}
+
 // Odometry
 
 TEST_F(Builder, OdometryIsWholeWithFreshVelocity) {

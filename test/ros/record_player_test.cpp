@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <vector>
@@ -34,7 +35,9 @@ class Record : public testing::Test, private driver::Listener {
   std::vector<vehicle::Now> heard_at_;
   int ticks_ = 0;
   session::NmeaSession session_{listening()};
-  RecordPlayer player_{session_, *this, [this] { told_.push_back("restart"); }};
+  RecordPlayer player_{session_, *this, [this](Restart what) {
+                         told_.push_back(what == Restart::Driver ? "new driver" : "restart");
+                       }};
 
  private:
   void onConnected(const vehicle::Now&, const std::string& endpoint) override {
@@ -90,6 +93,35 @@ TEST_F(Record, StartsAgainWhereItsTimeGoesBack) {
                          "the record starts again", "restart", "connected to nmea/replay",
                          "connection_1 $a"}));
   EXPECT_EQ(heard_at_.back().stamp, kStart);
+}
+
+TEST_F(Record, KnowsARestartedDriver) {
+  play(0s, "connection_1@100.000", "$a");
+  play(10s, "connection_2@100.000", "$b");
+  play(20s, "connection_1@119.500", "$c");
+  EXPECT_EQ(told_, (Told{"connected to nmea/replay", "connection_1@100.000 $a",
+                         "the recorded connection ended", "connected to nmea/replay",
+                         "connection_2@100.000 $b", "the recorded driver was restarted",
+                         "new driver", "connected to nmea/replay", "connection_1@119.500 $c"}));
+}
+
+TEST_F(Record, OfARestartedDriverMayGoBackABit) {
+  play(10s, "connection_1@100.000", "$a");
+  play(9500ms, "connection_1@119.500", "$b");
+  EXPECT_EQ(heard_at_.back().stamp, kStart + 9500ms);
+}
+
+TEST_F(Record, NamesOfOthersTellNoDriver) {
+  const char* const kNames[] = {"connection_1", "connection_2", "", "@5", "boat@6",
+                                "base_link",    "connection_3@"};
+  for (const char* name : kNames) play(0s, name, "$a");
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), "new driver"), 0);
+}
+
+TEST_F(Record, OfAnOlderDriverAndANewerOneIsOfTwo) {
+  play(0s, "connection_1", "$a");
+  play(1s, "connection_1@119.500", "$b");
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), "new driver"), 1);
 }
 
 TEST_F(Record, ALittleDisorderIsNoRestart) {

@@ -74,15 +74,18 @@ struct RecordLine {
 /// Takes down what a driver hears and publishes, as the bridge does it.
 class Recording {
  public:
-  Recording(ClosedLoop& loop, const ros_layer::Parameters& parameters)
-      : loop_(loop), messages_(parameters) {
+  /// `driver` tells one run of the driver from another.
+  Recording(ClosedLoop& loop, const ros_layer::Parameters& parameters,
+            const std::string& driver = "1778450400.000")
+      : loop_(loop), messages_(parameters), driver_(driver) {
     loop.watch.event = [this](const vehicle::Now& now, const vehicle::Event& event) {
       const auto dialect = loop_.session().dialect();
       if (dialect) messages_.builder().setDialect(*dialect);
       messages_.take(guarded(now), event, outlet);
     };
     loop.watch.heard = [this](std::string_view line) {
-      record.push_back({guarded(loop_.now()).stamp, "connection_" + std::to_string(connects_),
+      record.push_back({guarded(loop_.now()).stamp,
+                        "connection_" + std::to_string(connects_) + "@" + driver_,
                         std::string{line}});
     };
   }
@@ -111,6 +114,7 @@ class Recording {
 
   ClosedLoop& loop_;
   ros_layer::VehicleMessages messages_;
+  const std::string driver_;
   int connects_ = 0;
   vehicle::UtcTime last_{};
 };
@@ -121,7 +125,10 @@ class Playing : private driver::Listener {
   explicit Playing(const ros_layer::Parameters& parameters)
       : session_(listening(parameters.session)),
         messages_(parameters),
-        player_(session_, *this, [this] { messages_.builder().reset(); }) {}
+        player_(session_, *this, [this](ros_layer::Restart what) {
+          if (what == ros_layer::Restart::Driver) return messages_.builder().startAfresh();
+          messages_.builder().reset();
+        }) {}
 
   void play(const std::vector<RecordLine>& lines) {
     for (const RecordLine& one : lines) player_.play({one.stamp, one.connection, one.line});

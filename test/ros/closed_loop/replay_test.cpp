@@ -8,6 +8,7 @@
 #include <ostream>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "convert.h"
 #include "frontseat_driver/sim/random.h"
@@ -156,6 +157,30 @@ TEST_P(Replayed, GivesTheSameMessagesByteForByte) {
 
 INSTANTIATE_TEST_SUITE_P(Runs, Replayed, testing::ValuesIn(kMissions),
                          [](const auto& row) { return std::string{row.param.name}; });
+
+// A boat carried 500 m between two runs of the driver: each has its own datum and its own clocks.
+TEST(ReplayOfTwoRuns, GivesTheSameMessagesByteForByte) {
+  const ros_layer::Parameters parameters = parametersFor(Dialect::Kingfisher);
+  sim::KingfisherConfig config;
+  config.start_time = quietKingfisher().start_time;
+  ClosedLoop first_loop{parameters, config};
+  Recording first{first_loop, parameters, "100.000"};
+  first.pass(30s);
+  config.start_time += 31s;
+  config.start.east_m += 500.0;
+  config.clock_offset_s = 3.0;
+  ClosedLoop second_loop{parameters, config};
+  Recording second{second_loop, parameters, "131.000"};
+  second.pass(30s);
+
+  Playing replay{parameters};
+  replay.play(first.record);
+  replay.play(second.record);
+  std::vector<Published> expected = first.outlet.published;
+  expected.insert(expected.end(), second.outlet.published.begin(), second.outlet.published.end());
+  EXPECT_EQ(firstDifference(expected, replay.outlet.published), expected.size());
+  EXPECT_EQ(expected.size(), replay.outlet.published.size());
+}
 
 }  // namespace
 }  // namespace frontseat_driver::closed_loop
