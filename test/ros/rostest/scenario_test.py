@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What every user sees, with nmea_node and with the nodelet in a manager."""
 
+import time
 import unittest
 
 import rospy
@@ -171,6 +172,12 @@ class Scenario(unittest.TestCase):
         self.connection.send(*lines)
         wait_until(lambda: len(self.heard(record)) >= len(lines), "all lines")
         self.assertEqual([line.decode().strip() for line in lines], self.heard(record))
+        connections = {message.header.frame_id for message in record.messages}
+        self.assertEqual(1, len(connections), connections)
+        # By the system clock, with a margin for a machine that sets its own meanwhile.
+        connection, _, started = connections.pop().partition("@")
+        self.assertRegex(connection, r"^connection_[1-9]\d*$")
+        self.assertAlmostEqual(time.time(), float(started), delta=600.0)
 
     def test_what_is_sent_is_on_nmea_tx(self):
         sent = self.collect("nmea/tx", Sentence)
