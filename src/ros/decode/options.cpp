@@ -88,8 +88,10 @@ void addOutput(CLI::App& app, Options& options, Words& words) {
       ->type_name("DIR");
   app.add_flag("--summary", options.summary_only, "only the summary, on standard output");
   app.add_flag("--quiet", options.quiet, "no summary and no progress bar");
-  app.add_option("--plot", options.plot,
-                 "draw the record into this picture (png, svg or html), by the program nmea_plot")
+  app.add_option(
+         "--plot", options.plot,
+         "draw the whole record into this picture (png, svg or html), by the program nmea_plot; "
+         "--vehicle and --quiet go with it")
       ->type_name("FILE");
 }
 
@@ -123,6 +125,20 @@ void translate(const Words& words, Options& options) {
   if (!words.to.empty()) selection.to = toMoment(words.to);
 }
 
+// nmea_plot draws a whole record, a bag by its messages: what selects or presents sentences is
+// nothing to it.
+constexpr const char* kNotWithPlot[] = {"--from", "--to",   "--only",   "--except", "--dialect",
+                                        "--port", "--baud", "--format", "--output", "--summary"};
+
+std::string plotFault(const CLI::App& app) {
+  if (app.count("--plot") == 0) return {};
+  for (const char* name : kNotWithPlot) {
+    if (app.count(name) == 0) continue;
+    return name + std::string{" does not go with --plot, which draws the whole record"};
+  }
+  return {};
+}
+
 /// What cannot go together, in one line; empty if all is well.
 std::string contradiction(const Options& options) {
   if (!options.folder.empty() && options.format != Format::Csv) {
@@ -130,7 +146,7 @@ std::string contradiction(const Options& options) {
   }
   const bool one_table = options.selection.only.size() == 1;
   const bool to_stdout = options.format == Format::Csv && options.folder.empty();
-  if (to_stdout && !one_table && !options.summary_only && options.plot.empty()) {
+  if (to_stdout && !one_table && !options.summary_only) {
     return "--format csv makes a table for each kind of sentence: say --output DIR, or choose one "
            "with --only";
   }
@@ -166,6 +182,7 @@ Options parseOptions(const std::vector<std::string>& arguments) {
     return usage(visible(error.what()));
   }
   translate(words, options);
+  if (const std::string wrong = plotFault(app); !wrong.empty()) return usage(wrong);
   if (const std::string wrong = contradiction(options); !wrong.empty()) return usage(wrong);
   return options;
 }

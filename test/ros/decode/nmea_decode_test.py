@@ -248,6 +248,21 @@ class Decode(unittest.TestCase):
         result = decode("--plot", "a b;c.png", "in put", program=copy)
         self.assertEqual((7, b"in put|a b;c.png|"), (result.code, result.out))
 
+    def test_plots_only_the_whole_record(self):
+        """What nmea_plot cannot do is refused, not left out."""
+        copy = shutil.copy(program(), self.path("nmea_decode"))
+        self.write("nmea_plot", "#!/bin/sh\nprintf plotted\n")
+        os.chmod(self.path("nmea_plot"), 0o755)
+        for name, value in (("--from", "1"), ("--to", "1"), ("--only", "NVG"), ("--except", "NVG"),
+                            ("--dialect", "sandshark"), ("--port", "29501"), ("--baud", "9600"),
+                            ("--format", "json"), ("--output", "x")):
+            self.assert_refused(2, name + " does not go with --plot", "--plot", "a.png", name, value,
+                                HERON, program=copy)
+        self.assert_refused(2, "--summary does not go with --plot", "--plot", "a.png", "--summary",
+                            HERON, program=copy)
+        result = decode("--plot", "a.png", "--quiet", "--vehicle", "/", HERON, program=copy)
+        self.assertEqual((0, b"plotted"), (result.code, result.out))
+
     def test_takes_little_memory_and_counts_right(self):
         """50 MB of log in less memory than that, whatever it is made of."""
         block = "".join(
