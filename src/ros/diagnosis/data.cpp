@@ -17,6 +17,8 @@ constexpr double kStartPatience_s = 5.0;
 // A sentence that came regularly is gone after so many of its usual periods.
 constexpr double kMissedPeriods = 5.0;
 constexpr double kSlow = 0.5;  // of the usual rate
+// Fewer than this in the window, as usual, tell no rate: one that comes every 15 s is in it or not.
+constexpr double kFewestInWindow = 5.0;
 
 // Sent at a rate; all others come when there is something to say.
 constexpr std::array<std::string_view, 13> kPeriodic = {
@@ -88,7 +90,8 @@ std::string fallenBehind(const Health& health, const Rate& rate) {
     return printed("no %s for %.1f s, where %.1f Hz are usual: is the sensor on?",
                    rate.address.c_str(), rate.age_s, *rate.usual_hz);
   }
-  if (rate.hz < kSlow * *rate.usual_hz) {
+  const bool tells = *rate.usual_hz * SentenceRates::kWindow >= kFewestInWindow;
+  if (tells && rate.hz < kSlow * *rate.usual_hz) {
     return printed(
         "%s comes at %.1f Hz, where %.1f Hz are usual: the link or the vehicle is "
         "overloaded; what else uses them?",
