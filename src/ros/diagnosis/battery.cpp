@@ -25,16 +25,25 @@ std::string describe(const BatteryHealth& battery) {
   return text;
 }
 
+bool isLow(const BatteryHealth& battery) { return battery.low_for_s >= kLasting_s; }
+
+/// The weakest of those that are low, or of all: a dip of one must not hide that another is low.
+const BatteryHealth& weakestOf(const std::vector<BatteryHealth>& batteries) {
+  return *std::min_element(batteries.begin(), batteries.end(),
+                           [](const BatteryHealth& a, const BatteryHealth& b) {
+                             if (isLow(a) != isLow(b)) return isLow(a);
+                             return a.weakest_v < b.weakest_v;
+                           });
+}
+
 void judge(const Health& health, Diagnosis& diagnosis) {
   if (health.batteries.empty()) {
     diagnosis.message = "the vehicle tells no voltage";
     return;
   }
-  const BatteryHealth& weakest = *std::min_element(
-      health.batteries.begin(), health.batteries.end(),
-      [](const BatteryHealth& a, const BatteryHealth& b) { return a.weakest_v < b.weakest_v; });
+  const BatteryHealth& weakest = weakestOf(health.batteries);
   diagnosis.message = describe(weakest);
-  if (health.battery_low_v <= 0.0 || weakest.low_for_s < kLasting_s) return;
+  if (health.battery_low_v <= 0.0 || !isLow(weakest)) return;
   const bool empty = weakest.weakest_v < kEmpty * health.battery_low_v;
   diagnosis.level = empty ? Level::Error : Level::Warn;
   diagnosis.message =
