@@ -56,6 +56,12 @@ class Connecting {
     return diagnosed();
   }
 
+  Diagnoses connectedAgain() {
+    EXPECT_TRUE(runUntil(io_, [this] { return log.endpoints.size() == 2; }));
+    monitor_->connected({}, log.endpoints.at(1));
+    return diagnosed();
+  }
+
   ClientLog log;
 
  private:
@@ -116,6 +122,11 @@ TEST(BrokenLink, VehicleThatSaysNothing) {
   connecting.begun();
   expectRedLink(connecting.lost(),
                 AllOf(HasSubstr("no byte for 0.1 s"), HasSubstr("is another one connected?")));
+  const Diagnosis again = connecting.connectedAgain()[0];
+  EXPECT_EQ(Level::Error, again.level);
+  EXPECT_THAT(again.message,
+              AllOf(HasSubstr("again, nothing heard yet; before: no byte for 0.1 s; the vehicle"),
+                    HasSubstr("is another one connected?")));
 }
 
 }  // namespace

@@ -12,8 +12,6 @@ namespace {
 using Rate = SentenceRates::Rate;
 using Level = Diagnosis::Level;
 
-// A vehicle that has just been connected to may take so long until it says what it was asked for.
-constexpr double kStartPatience_s = 5.0;
 // A sentence that came regularly is gone after so many of its usual periods.
 constexpr double kMissedPeriods = 5.0;
 constexpr double kSlow = 0.5;  // of the usual rate

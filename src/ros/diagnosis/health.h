@@ -15,11 +15,14 @@
 
 namespace frontseat_driver::ros_layer {
 
+/// A vehicle that has just been connected to may take so long until it says what it was asked for.
+constexpr double kStartPatience_s = 5.0;
+
 struct LinkHealth {
   bool connected = false;
-  bool failed = false;        ///< since the last connection, if there was one
+  bool failed = false;        ///< since the vehicle was last heard, if it was
   std::string endpoint;       ///< as connected, or host and port as configured
-  std::string last_failure;   ///< why there is no connection
+  std::string last_failure;   ///< why there is, or was, no connection
   double connected_s = 0.0;   ///< since the connection was made
   double unreported_s = 0.0;  ///< since the driver's thread last said anything
 };

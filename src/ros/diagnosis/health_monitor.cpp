@@ -48,7 +48,6 @@ HealthMonitor::HealthMonitor(const Parameters& parameters, const session::NmeaSe
 
 void HealthMonitor::connected(const vehicle::Now& now, const std::string& endpoint) {
   connected_ = true;
-  failed_ = false;
   endpoint_ = endpoint;
   connected_at_ = now.steady;
   at_connect_ = session_.counters();
@@ -72,6 +71,7 @@ void HealthMonitor::connectFailed(const std::string& reason) {
 }
 
 void HealthMonitor::heard(const vehicle::Now& now, std::string_view line) {
+  failed_ = false;  // not by a connection alone: a busy Sandshark accepts one and says nothing
   rates_.count(line, now.steady);
 }
 

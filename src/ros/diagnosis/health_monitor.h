@@ -54,7 +54,7 @@ class HealthMonitor {
   const session::NmeaSession& session_;
   std::string endpoint_;
   bool connected_ = false;
-  bool failed_ = false;
+  bool failed_ = false;                ///< and nothing was heard since
   bool other_dialect_before_ = false;  ///< on the last connection
   std::string last_failure_;
   vehicle::SteadyTime connected_at_{};

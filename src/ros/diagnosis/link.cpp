@@ -51,22 +51,38 @@ std::string otherDialect(const Health& health) {
          health.parameter_dialect + ": set it to auto";
 }
 
+/// The last failure and what to do about it.
+std::string failure(const Health& health) {
+  const std::string advice =
+      health.other_dialect_only ? otherDialect(health) : linkAdvice(health.link.last_failure);
+  return health.link.last_failure + (advice.empty() ? "" : "; " + advice);
+}
+
+/// Connected, and not better off for it. Where bytes come in and no sentence, diagnoseData soon
+/// tells more.
+bool isSilentAgain(const Health& health) {
+  const bool silent = health.connection.bytes_received == 0;
+  return health.link.connected && health.link.failed &&
+         (silent || health.link.connected_s < kStartPatience_s);
+}
+
 void judge(const Health& health, Diagnosis& diagnosis) {
   const LinkHealth& link = health.link;
   if (link.unreported_s > kReportsAtLeastEvery_s) {
     diagnosis.level = Diagnosis::Level::Error;
     diagnosis.message =
         printed("the driver itself has reported nothing for %.0f s; restart it", link.unreported_s);
+  } else if (isSilentAgain(health)) {
+    diagnosis.level = Diagnosis::Level::Error;
+    diagnosis.message =
+        "connected to " + link.endpoint + " again, nothing heard yet; before: " + failure(health);
   } else if (link.connected) {
     diagnosis.message = "connected to " + link.endpoint;
   } else if (!link.failed) {
     diagnosis.message = "connecting to " + link.endpoint;
   } else {
     diagnosis.level = Diagnosis::Level::Error;
-    const std::string advice =
-        health.other_dialect_only ? otherDialect(health) : linkAdvice(link.last_failure);
-    diagnosis.message = "not connected to " + link.endpoint + ": " + link.last_failure +
-                        (advice.empty() ? "" : "; " + advice);
+    diagnosis.message = "not connected to " + link.endpoint + ": " + failure(health);
   }
 }
 
