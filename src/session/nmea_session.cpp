@@ -589,7 +589,8 @@ NmeaCounters NmeaSession::counters() const {
   const nmea::Framer::Counters& framed = framer_.counters();
   counters.bytes_received = framed.bytes;
   counters.sentences_received = framed.sentences;
-  counters.bad_frames += framed.cut_off + framed.noise_lines;
+  counters.no_sentences = framed.cut_off + framed.noise_lines;
+  counters.bad_frames += counters.no_sentences;
   counters.oversized = framed.oversized;
   counters.refused_bytes = framed.sentence_bytes - counters.decoded_bytes + framed.dropped_bytes;
   counters.line_end_bytes = framed.line_end_bytes;

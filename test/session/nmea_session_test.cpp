@@ -165,6 +165,7 @@ TEST_F(NmeaSessionTest, EveryLineIsHeardAndOnlyGoodOnesCount) {
   EXPECT_EQ(counters.sentences_received, 5u);
   EXPECT_EQ(counters.bad_checksums, 1u);
   EXPECT_EQ(counters.bad_frames, 2u);  // noise, no checksum
+  EXPECT_EQ(counters.no_sentences, 1u);
   EXPECT_EQ(counters.unknown, 1u);
   EXPECT_EQ(counters.decoded, 2u);
   EXPECT_EQ(counters.bad_fields, 1u);

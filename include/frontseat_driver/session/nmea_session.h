@@ -50,6 +50,8 @@ struct NmeaCounters {
   std::uint64_t decoded = 0;        ///< sentences of this dialect read into their struct
   std::uint64_t bad_checksums = 0;  ///< lines whose checksum is wrong
   std::uint64_t bad_frames = 0;     ///< lines without frame or checksum, or cut off by the next `$`
+  std::uint64_t no_sentences = 0;   ///< those of them that are not in sentences_received: noise and
+                                    ///< what was cut off
   std::uint64_t bad_fields = 0;     ///< single fields that did not parse
   std::uint64_t unknown = 0;        ///< well-formed sentences without a layout in this dialect
   std::uint64_t other_dialect = 0;  ///< those of them that belong to the other dialect

@@ -50,6 +50,11 @@ const Rate* rateOf(const Health& health, const std::string& address) {
 
 std::string whatToDoAbout(const Health& health, const std::string& formatter, bool came_before) {
   if (health.replay) return "the record has none there";
+  const session::NmeaCounters& recent = health.recent;
+  if (recent.bytes_received > 0 && recent.decoded + recent.unknown == 0) {
+    return "bytes come in, but no sentence that can be read: has the baud rate of a serial line "
+           "behind the TCP port changed, or is it another port of a serial server?";
+  }
   if (came_before)
     return "it came before: has the vehicle's navigation stopped, or starts it again?";
   if (!isSandshark(health)) return "is it turned off on the vehicle?";

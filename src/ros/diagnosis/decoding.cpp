@@ -21,7 +21,8 @@ bool isMuch(std::uint64_t part, std::uint64_t whole) {
 
 void judge(const Health& health, Diagnosis& diagnosis) {
   const session::NmeaCounters& recent = health.recent;
-  const std::uint64_t lines = recent.sentences_received;
+  const std::uint64_t sentences = recent.sentences_received;
+  const std::uint64_t lines = sentences + recent.no_sentences + recent.oversized;
   const std::uint64_t damaged = recent.bad_checksums + recent.bad_frames + recent.oversized;
   if (health.other_dialect_only) {
     diagnosis.level = Level::Error;
@@ -35,13 +36,13 @@ void judge(const Health& health, Diagnosis& diagnosis) {
         "there; topic nmea/rx shows the lines",
         100.0 * share(damaged, lines), static_cast<unsigned long long>(recent.bad_checksums),
         static_cast<unsigned long long>(recent.bad_frames + recent.oversized));
-  } else if (isMuch(recent.other_dialect, lines)) {
+  } else if (isMuch(recent.other_dialect, sentences)) {
     diagnosis.level = Level::Warn;
     diagnosis.message = printed(
         "%.1f %% of the sentences are of the other dialect and ignored: do "
         "two vehicles share this port?",
-        100.0 * share(recent.other_dialect, lines));
-  } else if (isMuch(recent.bad_fields, lines)) {
+        100.0 * share(recent.other_dialect, sentences));
+  } else if (isMuch(recent.bad_fields, sentences)) {
     diagnosis.level = Level::Warn;
     diagnosis.message = printed(
         "%llu fields in the last 10 s could not be read and count as blank: has the vehicle new "

@@ -20,6 +20,7 @@ NmeaCounters operator-(const NmeaCounters& a, const NmeaCounters& b) {
   difference.decoded = a.decoded - b.decoded;
   difference.bad_checksums = a.bad_checksums - b.bad_checksums;
   difference.bad_frames = a.bad_frames - b.bad_frames;
+  difference.no_sentences = a.no_sentences - b.no_sentences;
   difference.bad_fields = a.bad_fields - b.bad_fields;
   difference.unknown = a.unknown - b.unknown;
   difference.other_dialect = a.other_dialect - b.other_dialect;

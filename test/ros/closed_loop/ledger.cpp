@@ -68,6 +68,7 @@ const char* Ledger::complaint(const session::NmeaCounters& counters) const {
   if (counters.bytes_received != bytes_) return "bytes_received is wrong";
   if (counters.sentences_received != lines_) return "sentences_received is wrong";
   if (counters.oversized != oversized_) return "oversized is wrong";
+  if (counters.no_sentences != no_lines_) return "no_sentences is wrong";
   if (counters.pending_bytes != line_.size()) return "pending_bytes is wrong";
   if (counters.line_end_bytes != line_ends_) return "line_end_bytes is wrong";
   const std::uint64_t known = counters.decoded_bytes + counters.refused_bytes;
