@@ -110,7 +110,7 @@ void NmeaSession::disconnected(const Now& now, Output& out) {
   handshake_due_ = SteadyTime::max();
   status_due_ = SteadyTime::max();
   framer_.reset();
-  slot_.clear();
+  emptySlot();
   zero_due_ = false;
   effect_.clear();
   acks_.clear();
@@ -303,10 +303,15 @@ void NmeaSession::permissionChanged(const Now& now, Output& out) {
 
 void NmeaSession::endCommanding(const Now& now, Output& out) {
   if (!slot_.occupied()) return;
-  slot_.clear();
+  emptySlot();
   effect_.clear();
   zero_due_ = isBoat();
   reportControl(now, out);
+}
+
+void NmeaSession::emptySlot() {
+  slot_.clear();
+  held_back_since_.reset();
 }
 
 void NmeaSession::request(const Now& now, Request request, Respond respond, Output& out) {
@@ -418,6 +423,7 @@ void NmeaSession::sendWhatIsDue(const Now& now, Output& out) {
 bool NmeaSession::sendUrgent(const Now& now, Output& out) {
   if (zero_due_) {
     zero_due_ = !send(now, zeroThrust(), out);
+    if (!zero_due_) held_back_since_.reset();
     return true;
   }
   const auto* abort = requests_.dueAbort(now.steady);
@@ -428,6 +434,7 @@ bool NmeaSession::sendCommand(const Now& now, Output& out) {
   const vehicle::Command* command = slot_.due(now.steady);
   if (!command || !permission_.granted()) return false;
   if (out.congested()) {
+    holdBack(now);
     slot_.putOff(now.steady + std::max(sendSpacing(), kOfferAgain));
     return false;
   }
@@ -439,6 +446,7 @@ bool NmeaSession::sendCommand(const Now& now, Output& out) {
   const auto time = vehicle::timeOfDay(now.utc);
   if (!send(now, commandSentence(*command, options_.format, present(now), time), out)) return true;
   slot_.sent(now.steady);
+  held_back_since_.reset();
   if (!isBoat() && use_acks_) {
     acks_.sent(
         {protocol::bluefin::BehaviorChange::kFormatter, time, AckTracker::kNoRequest, now.steady});
@@ -541,11 +549,18 @@ bool NmeaSession::send(const Now& now, nmea::SentenceWriter sentence, Output& ou
   const auto line = sentence.finish();
   if (!line || !out.send(now, *line)) {
     next_send_ = now.steady + std::max(sendSpacing(), kOfferAgain);
+    holdBack(now);
     return false;
   }
   ++counters_.sentences_sent;
   counters_.bytes_sent += line->size();
   return true;
+}
+
+// Whatever the link did not take, a command that is due waits behind it.
+void NmeaSession::holdBack(const Now& now) {
+  const bool waits = zero_due_ || slot_.due(now.steady);
+  if (waits && !held_back_since_) held_back_since_ = now.steady;
 }
 
 SteadyTime NmeaSession::nextStep() const {

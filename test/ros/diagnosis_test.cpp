@@ -37,7 +37,8 @@ Health healthy() {
   health.rates = {rate("CPNVG", 10.0, 0.1), rate("CPNVR", 10.0, 0.1)};
   health.counters.sentences_received = health.connection.sentences_received = 2000;
   health.connection.bytes_received = 100000;
-  health.recent.sentences_received = 200;
+  health.recent.sentences_received = health.recent.decoded = 200;
+  health.recent.bytes_received = 10000;
   health.position_known = true;
   health.control.grant = vehicle::Grant::Granted;
   health.clock.vehicle_ahead_s = 0.01;
@@ -72,6 +73,27 @@ const Row kRows[] = {
      "wait for the first GPS fix"},
     {"driver_hangs", [](auto& h) { h.link.unreported_s = 7.0; }, "link", Level::Error,
      "the driver itself has reported nothing for 7 s"},
+    {"silent_again_after_silence",
+     [](auto& h) {
+       h.rates.clear();
+       h.connection = {};
+       h.link.connected_s = 3.0;
+       h.link.failed = true;
+       h.link.last_failure = "no byte for 5.0 s";
+       h.dialect = "";
+     },
+     "link", Level::Error,
+     "connected to 10.0.0.3:29500 again, nothing heard yet; before: no byte for 5.0 s; the vehicle "
+     "says nothing: a Sandshark serves one client"},
+    {"noise_after_silence_is_no_fault_of_the_link",
+     [](auto& h) {
+       h.rates.clear();
+       h.connection.sentences_received = 0;
+       h.recent.sentences_received = h.recent.decoded = 0;
+       h.link.failed = true;
+       h.link.last_failure = "no byte for 5.0 s";
+     },
+     "data", Level::Error, "no sentence that starts with $"},
     {"nothing_heard",
      [](auto& h) {
        h.rates.clear();
@@ -98,6 +120,13 @@ const Row kRows[] = {
        h.recent.bad_checksums = 200;
      },
      "decoding", Level::Error, "100.0 % of the lines are damaged"},
+    {"more_noise_than_lines",
+     [](auto& h) {
+       h.recent.sentences_received = 100;
+       h.recent.bad_frames = h.recent.no_sentences = 250;
+       h.recent.oversized = 50;
+     },
+     "decoding", Level::Error, "75.0 % of the lines are damaged"},
     {"first_line_cut", [](auto& h) { h.recent.bad_frames = 1; }, "decoding", Level::Ok,
      "well-formed"},
     {"unreadable_fields", [](auto& h) { h.recent.bad_fields = 20; }, "decoding", Level::Warn,
@@ -114,6 +143,34 @@ const Row kRows[] = {
      "data", Level::Error, "CPNVG comes every 4.0 s, and what is older than max_data_age, 2.0 s"},
     {"navigation_late", [](auto& h) { h.rates[0] = rate("CPNVG", 9.0, 2.1); }, "data", Level::Error,
      "no CPNVG for 2.1 s"},
+    {"bytes_and_no_lines_any_more",
+     [](auto& h) {
+       h.rates[0] = rate("CPNVG", 0.0, 12.0);
+       h.recent.sentences_received = h.recent.decoded = 0;
+     },
+     "data", Level::Error,
+     "no CPNVG for 12.0 s: no odom, nav/fix and tf; bytes come in, but no sentence that can be "
+     "read: has the baud rate of a serial line behind the TCP port changed"},
+    {"sentences_and_no_navigation_any_more", [](auto& h) { h.rates[0] = rate("CPNVG", 0.0, 12.0); },
+     "data", Level::Error, "it came before: has the vehicle's navigation stopped"},
+    {"battery_every_15_s",
+     [](auto& h) {
+       h.rates.push_back(rate("CPRBS", 0.0, 12.0));
+       h.rates.back().usual_hz = 1.0 / 15.0;
+     },
+     "data", Level::Ok, "CPNVG comes at 10.0 Hz"},
+    {"five_in_the_window_tell_a_rate",
+     [](auto& h) {
+       h.rates.push_back(rate("CPRBS", 0.2, 5.0));
+       h.rates.back().usual_hz = 0.5;
+     },
+     "data", Level::Warn, "CPRBS comes at 0.2 Hz, where 0.5 Hz are usual"},
+    {"battery_every_15_s_gone",
+     [](auto& h) {
+       h.rates.push_back(rate("CPRBS", 0.0, 76.0));
+       h.rates.back().usual_hz = 1.0 / 15.0;
+     },
+     "data", Level::Warn, "no CPRBS for 76.0 s"},
     {"velocity_late", [](auto& h) { h.rates[1] = rate("CPNVR", 9.0, 2.1); }, "data", Level::Warn,
      "no CPNVR for 2.1 s: odom has no twist"},
     {"one_step",
@@ -156,6 +213,10 @@ const Row kRows[] = {
      "set parameter leap_seconds to 18"},
     {"clock_in_kathmandu", [](auto& h) { h.clock.vehicle_ahead_s = 20700.2; }, "clock", Level::Warn,
      "zone UTC+5.75"},
+    {"link_takes_a_command_late", [](auto& h) { h.held_back_s = 0.9; }, "commands", Level::Ok,
+     "nothing is commanded"},
+    {"link_takes_no_command", [](auto& h) { h.held_back_s = 3.0; }, "commands", Level::Warn,
+     "no command has gone out for 3.0 s: the link still holds what it was given before"},
     {"refused_by_the_vehicle", [](auto& h) { h.vehicle_refusal = "failed: too deep"; }, "commands",
      Level::Warn, "the vehicle refuses what is sent: failed: too deep"},
     {"battery_full", [](auto& h) { h.batteries = {battery(15.0, 14.9, 0.0)}; }, "battery",
@@ -167,6 +228,18 @@ const Row kRows[] = {
        h.batteries = {battery(15.0, 14.9, 0.0), battery(14.0, 12.6, 20.0)};
      },
      "battery", Level::Warn, "battery 2 is low: 14.00 V, the lowest of 12 cells 1.05 V"},
+    {"a_weak_bank_hides_behind_a_dip_of_another",
+     [](auto& h) {
+       h.batteries = {battery(12.5, 12.4, 3.0), battery(13.0, 12.9, 20.0)};
+       h.batteries[0].id = 1;
+     },
+     "battery", Level::Warn, "battery 2 is low: 13.00 V"},
+    {"the_weakest_of_the_low_ones",
+     [](auto& h) {
+       h.batteries = {battery(13.0, 12.9, 20.0), battery(12.0, 11.9, 20.0)};
+       h.batteries[0].id = 1;
+     },
+     "battery", Level::Error, "battery 2 is empty: 12.00 V"},
     {"battery_empty", [](auto& h) { h.batteries = {battery(12.0, 11.9, 20.0)}; }, "battery",
      Level::Error, "battery 2 is empty"},
     {"battery_not_judged",

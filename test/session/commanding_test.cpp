@@ -191,6 +191,65 @@ TEST_F(Commanding, AZeroThrustThatTheLinkDoesNotTakeIsTriedAgain) {
   EXPECT_THAT(out_.sentences(), ElementsAre(kZero));
 }
 
+// --- What the link holds back ---
+
+TEST_F(Commanding, TellsSinceWhenTheLinkTakesNoCommand) {
+  startKingfisher();
+  EXPECT_FALSE(session_->heldBackSince());
+  for (const bool full : {false, true}) {
+    out_.link_takes = full;  // full: it takes, but has not got rid of what it took
+    out_.link_is_full = full;
+    const auto began = now().steady;
+    for (int i = 0; i < 20; ++i) {
+      command(vehicle::DriveCommand{0.5, 0.5});
+      pass(100ms);
+      ASSERT_TRUE(session_->heldBackSince()) << i;
+      EXPECT_EQ(*session_->heldBackSince() - began, 0ms) << i;
+    }
+    out_.link_takes = true;
+    out_.link_is_full = false;
+    pass(100ms);
+    EXPECT_FALSE(session_->heldBackSince());
+    pass(2s);
+  }
+}
+
+TEST_F(Commanding, ZeroThrustIsHeldBackToo) {
+  startKingfisher();
+  command(vehicle::DriveCommand{0.5, 0.5});
+  out_.link_takes = false;
+  const auto began = now().steady;
+  stop();
+  pass(3s);
+  ASSERT_TRUE(session_->heldBackSince());
+  EXPECT_LE(*session_->heldBackSince() - began, 20ms);  // send_spacing
+  out_.link_takes = true;
+  pass(100ms);
+  EXPECT_FALSE(session_->heldBackSince());
+  out_.link_takes = false;
+  stop();
+  pass(100ms);
+  EXPECT_TRUE(session_->heldBackSince());
+  session_->disconnected(now(), out_);
+  EXPECT_FALSE(session_->heldBackSince());
+}
+
+TEST_F(Commanding, WhatElseTheLinkDoesNotTakeHoldsNoCommandBackBeforeOneIsDue) {
+  NmeaOptions options = withDialect(Dialect::Sandshark);
+  options.command_timeout = 5s;
+  options.command_rate_hz = 0.25;
+  startSandshark(options);
+  command(heading(90.0));
+  ASSERT_THAT(out_.sent, SizeIs(1));
+  out_.link_takes = false;
+  session_->setPayloadStatus(now(), {true, "well"});
+  pass(1s);
+  EXPECT_FALSE(session_->heldBackSince());
+  pass(3100ms);
+  ASSERT_TRUE(session_->heldBackSince());
+  EXPECT_LE(now().steady - *session_->heldBackSince(), 160ms);  // due after 4 s
+}
+
 TEST_F(Commanding, SandsharkHearsABehaviorAtLeastEveryFiveSeconds) {
   NmeaOptions options = withDialect(Dialect::Sandshark);
   options.command_timeout = 5s;

@@ -139,6 +139,10 @@ class NmeaSession : public Session {
   /// What a Sandshark is asked for on every connection, in this order.
   const std::vector<LogSwitch>& logRequests() const { return log_requests_; }
 
+  /// Since when the link has taken no command that was due, zero thrust included, being full or
+  /// congested; empty while it does, and while none is due.
+  const std::optional<SteadyTime>& heldBackSince() const { return held_back_since_; }
+
   /// Requests that are not answered yet.
   std::size_t openRequests() const { return requests_.size(); }
 
@@ -170,6 +174,8 @@ class NmeaSession : public Session {
   bool sendRequest(const Now& now, const RequestQueue::Open& open, Output& out);
   bool sendStatus(const Now& now, Output& out);
   bool send(const Now& now, nmea::SentenceWriter sentence, Output& out);
+  void holdBack(const Now& now);
+  void emptySlot();
   bool isAcknowledged(const LogSwitch& log) const;
   nmea::SentenceWriter sentenceFor(const Request& request, const Now& now) const;
 
@@ -201,6 +207,7 @@ class NmeaSession : public Session {
   SteadyTime permitted_since_{};  ///< or stopped, or aborted: a command must not be older
 
   CommandSlot slot_;
+  std::optional<SteadyTime> held_back_since_;
   bool zero_due_ = false;          ///< a Kingfisher is to hear zero thrust
   bool command_was_last_ = false;  ///< so that a fast publisher leaves room for everything else
   bool leaving_ = false;

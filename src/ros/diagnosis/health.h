@@ -80,6 +80,7 @@ struct Health {
   std::string commanded;           ///< what is being repeated to the vehicle; empty: nothing is
   std::string effect_complaint;    ///< commanded and measured, if the vehicle does not follow
   std::string vehicle_refusal;     ///< the vehicle's last refusal of a command, while recent
+  double held_back_s = 0.0;        ///< how long the link has taken no command that was due
   std::size_t unacknowledged = 0;  ///< sentences sent without an answer so far
 
   std::vector<BatteryHealth> batteries;

@@ -110,6 +110,8 @@ Health HealthMonitor::take(const vehicle::Now& now, const MessageBuilder& builde
   health.commanded = commanded ? toWords(*commanded) : "";
   health.effect_complaint = session_.effectComplaint();
   health.vehicle_refusal = recentWords(session_.lastRefusal(), now);
+  const auto& held_back_since = session_.heldBackSince();
+  if (held_back_since) health.held_back_s = inSeconds(now.steady - *held_back_since);
   health.unacknowledged = session_.unacknowledged();
   health.batteries = batteries_.take(now.steady);
   health.battery_low_v = parameters_.battery_low_v;

@@ -302,6 +302,78 @@ TEST(DiagnosisInTime, WithoutALinkNothingElseIsToBlame) {
   EXPECT_THAT(examined.log, IsEmpty());
 }
 
+// The second client of a Sandshark: TCP accepts it, the vehicle never speaks to it.
+TEST(DiagnosisInTime, AVehicleThatNeverSpeaksIsRedFromTheFirstLossOn) {
+  Examined examined{ros_layer::Parameters{}, quietSandshark()};
+  examined.loop.link.edit = [](std::string_view) { return std::string{}; };
+  examined.connect();
+  examined.pass(4s);
+  EXPECT_THAT(examined.complaints, IsEmpty());
+  for (int connection = 0; connection < 3; ++connection) {
+    examined.disconnect("no byte for 5.0 s");
+    const std::size_t before = examined.complaints.size();
+    examined.pass(1s);
+    examined.connect();
+    examined.pass(4s);
+    EXPECT_EQ(5U, examined.complaints.size() - before) << "every second";
+    EXPECT_THAT(examined.of("link").message, HasSubstr("nothing heard yet; before: no byte for"));
+  }
+  EXPECT_THAT(examined.complaining(0s), ElementsAre("link"));
+  examined.disconnect("no byte for 5.0 s");
+  examined.loop.link.edit = nullptr;
+  examined.connect();
+  examined.pass(5s);
+  EXPECT_EQ(Level::Ok, examined.of("link").level);
+}
+
+TEST(DiagnosisInTime, ASentenceThatComesEvery15SecondsIsNotMissed) {
+  sim::KingfisherConfig vehicle = quietKingfisher();
+  vehicle.rates["RBS"] = 1.0 / 15.0;
+  Examined examined{parametersOf(Dialect::Kingfisher), vehicle};
+  examined.connect();
+  examined.pass(300s);
+  EXPECT_THAT(examined.complaints, IsEmpty());
+  ASSERT_GE(examined.loop.session().counters().decoded, 20U);
+}
+
+// As when the baud rate of a serial line behind the port changes.
+TEST(DiagnosisInTime, NoiseInPlaceOfSentencesIsNamed) {
+  Examined examined{parametersOf(Dialect::Kingfisher), quietKingfisher()};
+  examined.connect();
+  examined.pass(20s);
+  examined.loop.link.edit = [](std::string_view bytes) {
+    std::string noise{bytes};
+    for (char& byte : noise) byte = static_cast<char>(byte == '\n' ? byte : byte ^ 0x55);
+    return noise;
+  };
+  examined.pass(20s);
+  EXPECT_EQ(Level::Error, examined.of("data").level);
+  EXPECT_THAT(examined.of("data").message, HasSubstr("bytes come in, but no sentence that can be"));
+  EXPECT_EQ(Level::Error, examined.of("decoding").level);
+  EXPECT_THAT(examined.of("decoding").message, HasSubstr("100.0 % of the lines are damaged"));
+}
+
+TEST(DiagnosisInTime, CommandsThatACongestedLinkHoldsBackAreTold) {
+  Examined examined{parametersOf(Dialect::Kingfisher), quietKingfisher()};
+  examined.connect();
+  examined.pass(10s, drive(0.5, 0.5));
+  examined.loop.link.congested = true;
+  examined.pass(5s, drive(0.5, 0.5));
+  EXPECT_THAT(examined.complaining(0s), ElementsAre("commands"));
+  EXPECT_THAT(examined.of("commands").message, HasSubstr("no command has gone out for 5.0 s"));
+  examined.loop.link.congested = false;
+  examined.pass(2s, drive(0.5, 0.5));
+  EXPECT_EQ(Level::Ok, examined.of("commands").level);
+  examined.loop.link.takes = false;
+  examined.pass(3s, drive(0.5, 0.5));
+  EXPECT_THAT(examined.of("commands").message, HasSubstr("no command has gone out for 3.0 s"));
+  examined.pass(3s);  // the zero thrust that ends a boat's commands waits too
+  EXPECT_THAT(examined.of("commands").message, HasSubstr("no command has gone out for"));
+  examined.loop.link.takes = true;
+  examined.pass(1s);
+  EXPECT_EQ("nothing is commanded", examined.of("commands").message);
+}
+
 TEST(DiagnosisInTime, ASandsharkTakenForABoatIsRecognizedThoughItFallsSilent) {
   Examined examined{parametersOf(Dialect::Kingfisher), quietSandshark()};
   for (int connection = 0; connection < 3; ++connection) {
