@@ -15,6 +15,8 @@ using vehicle::DroneCommand;
 constexpr int kZeros = 4;  // at once and each second for three seconds
 constexpr auto kZeroPeriod = 1s;
 constexpr auto kRepeatPeriod = 500ms;
+constexpr auto kRetry = 20ms;  // what the link did not take
+constexpr std::chrono::nanoseconds kLeastPeriod = 1000000us / 30;
 
 template <class Message>
 bool publish(const vehicle::Now& now, const Message& message, BlueyeOutput& out) {
@@ -37,6 +39,16 @@ blueye::protocol::MotionInputCtrl toMessage(const vehicle::MotionCommand& motion
   return message;
 }
 
+bool isZero(const DroneCommand& command) {
+  if (const auto* motion = std::get_if<vehicle::MotionCommand>(&command)) {
+    return motion->surge == 0.0 && motion->sway == 0.0 && motion->heave == 0.0 &&
+           motion->roll == 0.0 && motion->pitch == 0.0 && motion->yaw == 0.0;
+  }
+  if (const auto* tilt = std::get_if<vehicle::TiltCommand>(&command)) return tilt->velocity == 0.0;
+  const auto& gripper = std::get<vehicle::GripperCommand>(command);
+  return gripper.grip == 0.0 && gripper.rotate == 0.0;
+}
+
 DroneCommand zeroOf(std::size_t kind) {
   if (kind == 0) return vehicle::MotionCommand{};
   if (kind == 1) return vehicle::TiltCommand{};
@@ -53,6 +65,8 @@ HeldControls::HeldControls(std::chrono::nanoseconds timeout, std::chrono::nanose
 void HeldControls::put(const DroneCommand& command, SteadyTime received) {
   Held& held = held_[command.index()];
   held.slot.put(command, received);
+  const bool comes_to_rest = isZero(command) && !held.resting;
+  if (!comes_to_rest) held.slot.putOff(std::max(received, held.next));
   held.zeros = 0;
 }
 
@@ -82,11 +96,13 @@ void HeldControls::step(const vehicle::Now& now, BlueyeOutput& out) {
     if (held.zeros > 0 && now.steady >= held.zero_due) {
       // One that was not taken counts as not sent.
       if (send(now, zeroOf(kind), out)) --held.zeros;
-      held.zero_due = now.steady + (held.zeros == kZeros ? 20ms : kZeroPeriod);
+      held.zero_due = now.steady + (held.zeros == kZeros ? kRetry : kZeroPeriod);
+      held.resting = held.zeros < kZeros;
     }
     if (const DroneCommand* due = held.slot.due(now.steady)) {
-      send(now, *due, out);
+      held.resting = send(now, *due, out) && isZero(*due);
       held.slot.sent(now.steady);
+      held.next = now.steady + kLeastPeriod;
     }
   }
 }
@@ -127,7 +143,7 @@ bool HeldControls::zerosDue() const {
                      [](const Held& held) { return held.zeros == kZeros; });
 }
 
-void ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutput& out) {
+bool ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutput& out) {
   for (auto it = waiting_.begin(); it != waiting_.end();) {
     const bool same = it->control.type == control.type;
     if (same && it->control.respond) it->control.respond("a newer one took its place");
@@ -141,6 +157,7 @@ void ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutp
   } else if (control.respond) {
     control.respond(sent ? "" : "the link did not take it");
   }
+  return sent;
 }
 
 void ConfirmedControls::telemetry(std::string_view type, std::string_view payload) {
@@ -160,8 +177,8 @@ void ConfirmedControls::step(const vehicle::Now& now, BlueyeOutput& out) {
                               : "sent, but the drone's telemetry did not show it in time");
     }
     if (!late && it->control.repeat && now.steady >= it->again) {
-      out.publish(now, it->control.type, it->control.payload);
-      it->again = now.steady + kRepeatPeriod;
+      const bool sent = out.publish(now, it->control.type, it->control.payload);
+      it->again = now.steady + (sent ? kRepeatPeriod : kRetry);
     }
     it = late ? waiting_.erase(it) : std::next(it);
   }
@@ -182,10 +199,21 @@ std::string ConfirmedControls::awaited() {
   return waiting_.back().control.confirmed_by;
 }
 
-void ConfirmedControls::failAll(const std::string& reason) {
-  for (std::list<Waiting> all = std::exchange(waiting_, {}); !all.empty(); all.pop_front()) {
-    if (all.front().control.respond) all.front().control.respond(reason);
+void ConfirmedControls::failAll(const std::string& reason, bool stops_too) {
+  std::list<Waiting> failed;
+  for (auto it = waiting_.begin(); it != waiting_.end();) {
+    const auto next = std::next(it);
+    if (stops_too || !it->control.stops) failed.splice(failed.end(), waiting_, it);
+    it = next;
   }
+  for (const Waiting& one : failed) {
+    if (one.control.respond) one.control.respond(reason);
+  }
+}
+
+void ConfirmedControls::drop(const std::string& type) {
+  waiting_.remove_if(
+      [&type](const Waiting& one) { return one.control.stops && one.control.type == type; });
 }
 
 }  // namespace frontseat_driver::session

@@ -25,6 +25,7 @@ constexpr auto kRegisterAgain = 1s;
 constexpr auto kGoodbyeTimeout = 50ms;
 constexpr auto kAskAgain = 100ms;
 constexpr auto kOvertaken = 1s;
+constexpr auto kMissionEnds = 5s;
 constexpr auto kAskForConfirmation = 300ms;
 constexpr double kMostRate_hz = 100.0;  // the document, SetPubFrequencyReq
 
@@ -53,6 +54,31 @@ std::string_view withoutPackage(std::string_view type) { return type.substr(type
 template <class Message>
 bool parse(std::string_view payload, Message& message) {
   return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
+}
+
+/// The drone shows that no mission runs. Not that one is ready or has ended: that may be from
+/// before it was told to run one.
+bool showsNoMission(std::string_view payload, bool paused_will_do) {
+  pb::MissionStatusTel message;
+  if (!parse(payload, message)) return false;
+  const pb::MissionState state = message.mission_status().state();
+  return state == pb::MISSION_STATE_INACTIVE ||
+         (paused_will_do && state == pb::MISSION_STATE_PAUSED);
+}
+
+/// What ends a mission: sent again until the drone shows it.
+template <class Message>
+ConfirmedControls::Control endOfMission(bool paused_will_do) {
+  ConfirmedControls::Control control;
+  control.type = Message{}.GetTypeName();
+  control.repeat = true;
+  control.stops = true;
+  control.confirmed_by = pb::MissionStatusTel{}.GetTypeName();
+  control.shows = [paused_will_do](std::string_view payload) {
+    return showsNoMission(payload, paused_will_do);
+  };
+  control.timeout = kMissionEnds;
+  return control;
 }
 
 bool names(const pb::ConnectedClientsTel& message, std::uint32_t id) {
@@ -128,6 +154,7 @@ void BlueyeSession::connected(const Now& now, BlueyeOutput&) {
 void BlueyeSession::disconnected(const Now& now, BlueyeOutput& out) {
   connected_ = false;
   register_due_ = SteadyTime::max();
+  ask_clients_due_ = SteadyTime::max();
   drone_uptime_.reset();
   mission_ = State::Unknown;
   goodbye_said_ = true;
@@ -226,12 +253,15 @@ void BlueyeSession::setUp(const Now& now, BlueyeOutput& out) {
   for (const char* message : kAskedAtStart) askForTelemetry(now, message, out);
 }
 
-void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, BlueyeOutput& out) {
+void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, BlueyeOutput& out,
+                                    Then unanswered) {
   pb::GetTelemetryReq request;
   request.set_message_type(message);
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
-      [this](const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
+      [this, unanswered = std::move(unanswered)](const Now& at, const BlueyeReply& reply,
+                                                 BlueyeOutput& o) {
+        if (!reply.received && unanswered) unanswered(at, o);
         pb::GetTelemetryRep answer;
         if (!reply.received || !parse(reply.payload, answer)) return;
         const std::string& url = answer.payload().type_url();
@@ -240,6 +270,13 @@ void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, 
              o);
       },
       out);
+}
+
+void BlueyeSession::askForClients(const Now& now, BlueyeOutput& out) {
+  ask_clients_due_ = SteadyTime::max();
+  askForTelemetry(now, "ConnectedClientsTel", out, [this](const Now& at, BlueyeOutput&) {
+    if (connected_ && !silent()) ask_clients_due_ = at.steady + kRegisterAgain;
+  });
 }
 
 void BlueyeSession::askForRate(const Now& now, const std::string& message, double rate_hz,
@@ -295,10 +332,11 @@ void BlueyeSession::hearClients(const Now& now, std::string_view payload, bool i
   // Telemetry and replies come on two connections: for a while this may be older than the last
   // reply. A reply to a question is not.
   if (!in_order && now.steady < registered_since_ + kOvertaken && registered() && !silent()) {
-    if (message.client_id_in_control() != id_in_control_ || !names(message, id_)) {
-      askForTelemetry(now, "ConnectedClientsTel", out);
-    }
-    return;
+    const std::uint32_t in_control = message.client_id_in_control();
+    if (in_control == id_in_control_ && names(message, id_)) return;
+    // Control that may be gone is gone until the drone says otherwise.
+    if (inControl()) setIdInControl(now, in_control == id_ ? 0 : in_control, out);
+    return askForClients(now, out);
   }
   learnClients(now, message, out);
   if (!registered() || names(message, id_) || clients_.empty()) return;
@@ -444,29 +482,31 @@ void BlueyeSession::endCommanding(const Now& now, bool all) {
 
 std::string BlueyeSession::stop(const Now& now, BlueyeOutput& out) {
   permitted_since_ = now.steady;
-  confirmed_.failAll("commanding was stopped");
+  confirmed_.failAll("commanding was stopped", false);
   if (silent() || !inControl()) {
     endCommanding(now, false);
     return "commanding has ended; this client is not in control, so nothing was sent";
   }
   endCommanding(now, true);
   held_.step(now, out);
-  if (mission_ != State::Running) return "commanding has ended";
-  out.publish(now, pb::PauseMissionCtrl{}.GetTypeName(), {});
-  return "commanding has ended and the mission is paused";
+  // Whatever the drone told last: it may have been told to run one since.
+  confirmed_.add(now, endOfMission<pb::PauseMissionCtrl>(true), out);
+  return "commanding has ended and a mission that runs is paused";
 }
 
-std::string BlueyeSession::abort(const Now& now, BlueyeOutput& out) {
+BlueyeSession::Answer BlueyeSession::abort(const Now& now, BlueyeOutput& out) {
   const std::string stopped = stop(now, out);
-  if (silent() || !inControl()) return stopped;
-  out.publish(now, pb::ClearMissionCtrl{}.GetTypeName(), {});
-  return "commanding has ended and the mission is cleared";
+  if (silent() || !inControl()) return {false, stopped};
+  if (confirmed_.add(now, endOfMission<pb::ClearMissionCtrl>(false), out)) {
+    return {true, "commanding has ended and the mission is cleared"};
+  }
+  return {false, "commanding has ended; the link did not take the rest, which is sent again"};
 }
 
 void BlueyeSession::setCommandsEnabled(const Now& now, bool enabled) {
   commands_enabled_ = enabled;
   if (!enabled) {
-    confirmed_.failAll("the command gate was closed");
+    confirmed_.failAll("the command gate was closed", false);
     endCommanding(now, false);
   }
   reportControl(now);
@@ -534,7 +574,7 @@ void BlueyeSession::releaseControl(const Now& now, Respond respond, BlueyeOutput
 // From here on no command is taken: it would cancel the zeros, and the drone keeps what it has.
 void BlueyeSession::giveBack(const Now& now, Respond respond, BlueyeOutput& out) {
   releasing_ = std::move(respond);
-  confirmed_.failAll(kReleasing);
+  confirmed_.failAll(kReleasing, false);
   endCommanding(now, true);
   held_.step(now, out);
   const Then done = [this](const Now& at, BlueyeOutput&) {
@@ -573,6 +613,10 @@ void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, 
     if (control.respond) control.respond(reason);
     return;
   }
+  if (control.type == pb::RunMissionCtrl{}.GetTypeName()) {
+    confirmed_.drop(pb::PauseMissionCtrl{}.GetTypeName());
+    confirmed_.drop(pb::ClearMissionCtrl{}.GetTypeName());
+  }
   confirmed_.add(now, std::move(control), out);
 }
 
@@ -588,6 +632,7 @@ void BlueyeSession::request(const Now& now, std::string type, std::string payloa
   if (name == "FlashEscSettingsReq" && !options_.allow_flash) {
     return refuse("it writes to the motor controllers; parameter allow_flash permits it");
   }
+  if (name == "SetMissionReq") confirmed_.drop(pb::ClearMissionCtrl{}.GetTypeName());
   requests_.add(
       now, std::move(type), std::move(payload), timeout,
       [respond = std::move(respond)](const Now&, const BlueyeReply& reply, BlueyeOutput&) {
@@ -621,6 +666,7 @@ void BlueyeSession::step(const Now& now, BlueyeOutput& out) {
   confirmed_.step(now, out);
   askForConfirmations(now, out);
   if (now.steady >= register_due_) ping(now, out);
+  if (now.steady >= ask_clients_due_) askForClients(now, out);
   if (taking_ && now.steady >= taking_->again) continueTaking(now, out);
   requests_.step(now, out);
 }
@@ -659,7 +705,8 @@ void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
 vehicle::SteadyTime BlueyeSession::nextStep() const {
   if (!reported_) return SteadyTime::min();
   return std::min({held_.nextStep(), watchdog_due_, confirmed_.nextStep(), register_due_,
-                   requests_.nextStep(), taking_ ? taking_->again : SteadyTime::max(),
+                   ask_clients_due_, requests_.nextStep(),
+                   taking_ ? taking_->again : SteadyTime::max(),
                    confirmed_.empty() ? SteadyTime::max() : ask_confirmations_});
 }
 
@@ -669,6 +716,7 @@ void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   requests_.failAll(now, kLeaving, out);
   confirmed_.failAll(kLeaving);
   register_due_ = SteadyTime::max();
+  ask_clients_due_ = SteadyTime::max();
   watchdog_due_ = SteadyTime::max();
   if (taking_) finishTaking(now, {false, kLeaving}, out);
   if (releasing_) finishReleasing(now, {false, kLeaving});

@@ -17,6 +17,9 @@ namespace frontseat_driver::session {
 /// What the drone keeps doing until it is told otherwise: motion, tilt, gripper. Each has one
 /// newest-value slot, repeated while it is fresh. When it ends, zero goes out at once and again
 /// each second for three seconds, since a control message may be lost and is never answered.
+///
+/// No more than 30 of a kind go out in a second, the newest each time: a drone keeps what comes
+/// faster and acts on it late. Zero does not wait.
 class HeldControls {
  public:
   using SteadyTime = vehicle::SteadyTime;
@@ -50,6 +53,8 @@ class HeldControls {
     BasicCommandSlot<vehicle::DroneCommand> slot;
     int zeros = 0;  ///< still to go out
     SteadyTime zero_due{};
+    SteadyTime next{};     ///< no command but zero goes out before
+    bool resting = false;  ///< what went out last was zero
   };
 
   void end(Held& held, SteadyTime now);
@@ -71,6 +76,7 @@ class ConfirmedControls {
     std::string type;  ///< with package; empty: nothing is sent, only waited for
     std::string payload;
     bool repeat = false;       ///< sending it twice is as good as once
+    bool stops = false;        ///< ends something: no end of commanding ends it
     std::string confirmed_by;  ///< telemetry type with package; empty: sent is done
     /// Whether this telemetry shows the effect.
     std::function<bool(std::string_view payload)> shows;
@@ -78,13 +84,17 @@ class ConfirmedControls {
     Respond respond;  ///< may be empty
   };
 
-  /// Takes the place of one of the same type that waits.
-  void add(const vehicle::Now& now, Control control, BlueyeOutput& out);
+  /// Takes the place of one of the same type that waits. False if the link did not take it.
+  bool add(const vehicle::Now& now, Control control, BlueyeOutput& out);
 
   void telemetry(std::string_view type, std::string_view payload);
   void step(const vehicle::Now& now, BlueyeOutput& out);
   SteadyTime nextStep() const;
-  void failAll(const std::string& reason);
+  /// Those that end something go on unless `stops_too`.
+  void failAll(const std::string& reason, bool stops_too = true);
+
+  /// Sends those of a type no more, since the opposite is wanted now.
+  void drop(const std::string& type);
 
   bool empty() const { return waiting_.empty(); }
 

@@ -118,12 +118,13 @@ class BlueyeSession {
   std::string command(const vehicle::Now& now, const vehicle::DroneCommand& command,
                       SteadyTime received);
 
-  /// Ends commanding: zero motion, tilt and gripper, and a running mission is paused. Not in
-  /// control, nothing is sent, since it would stop somebody else. Returns what was done.
+  /// Ends commanding: zero motion, tilt and gripper, and a mission is paused, again until the drone
+  /// shows that none runs. Not in control, nothing is sent, since it would stop somebody else.
+  /// Returns what was done.
   std::string stop(const vehicle::Now& now, BlueyeOutput& out);
 
-  /// As stop(), and the mission is unloaded.
-  std::string abort(const vehicle::Now& now, BlueyeOutput& out);
+  /// As stop(), and the mission is unloaded. No success when nothing was sent.
+  Answer abort(const vehicle::Now& now, BlueyeOutput& out);
 
   /// Opens or closes the gate. Closing sends zero motion; opening revives nothing.
   void setCommandsEnabled(const vehicle::Now& now, bool enabled);
@@ -183,7 +184,9 @@ class BlueyeSession {
   void setUp(const vehicle::Now& now, BlueyeOutput& out);
   void askForRate(const vehicle::Now& now, const std::string& message, double rate_hz,
                   Respond respond, BlueyeOutput& out);
-  void askForTelemetry(const vehicle::Now& now, const std::string& message, BlueyeOutput& out);
+  void askForTelemetry(const vehicle::Now& now, const std::string& message, BlueyeOutput& out,
+                       Then unanswered = {});
+  void askForClients(const vehicle::Now& now, BlueyeOutput& out);
   void askForConfirmations(const vehicle::Now& now, BlueyeOutput& out);
   void continueTaking(const vehicle::Now& now, BlueyeOutput& out);
   void finishTaking(const vehicle::Now& now, const Answer& answer, BlueyeOutput& out);
@@ -229,6 +232,7 @@ class BlueyeSession {
   bool as_observer_ = true;
   std::uint32_t id_in_control_ = 0;
   std::vector<BlueyeClient> clients_;
+  SteadyTime ask_clients_due_ = SteadyTime::max();
   SteadyTime registered_since_{};
   SteadyTime permitted_since_{};  ///< or stopped: a command must not be older
   bool permitted_ = false;

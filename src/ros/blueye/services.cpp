@@ -178,7 +178,8 @@ void Services::addAuthority() {
       topics::kAbort,
       [this](auto&) {
         return ask([this](const auto& now, auto& out, const Respond& respond) {
-          respond({true, session_.abort(now, out), {}, {}});
+          const auto done = session_.abort(now, out);
+          respond({done.success, done.message, {}, {}});
         });
       },
       true);

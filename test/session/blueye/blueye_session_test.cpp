@@ -171,9 +171,8 @@ TEST(BlueyeSession, RepeatsTheNewestMotionWithAllAxesAndNothingElse) {
     EXPECT_EQ(drone.command(forward(0.005 * i)), "");
     drone.run(10ms);
   }
+  drone.run(30ms);
   const auto motions = drone.controlsOf("MotionInputCtrl");
-  // Each new command goes at once, so that none is late; nothing queues.
-  EXPECT_LE(motions.size(), 101u);
   EXPECT_FLOAT_EQ(ScriptedDrone::motionOf(motions.back()).surge(), 0.495F);
   drone.controls.clear();
   drone.run(900ms);
@@ -182,6 +181,57 @@ TEST(BlueyeSession, RepeatsTheNewestMotionWithAllAxesAndNothingElse) {
   for (const auto& one : repeated) {
     EXPECT_FLOAT_EQ(ScriptedDrone::motionOf(one).surge(), 0.495F);
   }
+}
+
+// A drone keeps what comes faster than it is used and acts on it late.
+TEST(BlueyeSession, SendsNoMoreThanThirtyOfAKindASecondHoweverFastAProgramIs) {
+  for (const auto period : {1ms, 10ms}) {
+    ScriptedDrone drone;
+    drone.giveControl();
+    drone.run(5s);
+    drone.controls.clear();
+    const auto begun = drone.now.steady;
+    EXPECT_EQ(drone.command(forward(0.1)), "");
+    ASSERT_EQ(drone.controlsOf("MotionInputCtrl").size(), 1u);  // the first one at once
+    while (drone.now.steady < begun + 3s) {
+      const double surge = 0.1 + 0.2 * std::chrono::duration<double>(drone.now.steady - begun) / 1s;
+      drone.command(forward(surge));
+      drone.command(vehicle::TiltCommand{surge});
+      drone.run(period);
+    }
+    const auto motions = drone.controlsOf("MotionInputCtrl");
+    EXPECT_GE(motions.size(), 75u);
+    EXPECT_LE(motions.size(), 91u);
+    EXPECT_LE(drone.controlsOf("TiltVelocityCtrl").size(), 91u);
+    for (std::size_t i = 1; i < motions.size(); ++i) {
+      EXPECT_GE(motions[i].at - motions[i - 1].at, 33ms);
+      // The newest of those that came: what was wanted a period ago at most.
+      const double wanted = 0.1 + 0.2 * std::chrono::duration<double>(motions[i].at - begun) / 1s;
+      EXPECT_NEAR(ScriptedDrone::motionOf(motions[i]).surge(), wanted, 0.003);
+    }
+  }
+}
+
+TEST(BlueyeSession, SendsZeroAtOnceHoweverSoonItComes) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.command(forward());
+  drone.run(2ms);
+  EXPECT_FALSE(drone.isAtRest());
+  drone.command(vehicle::MotionCommand{});  // a stick that is let go
+  EXPECT_TRUE(drone.isAtRest());
+  drone.controls.clear();
+  for (int i = 0; i < 1000; ++i) {
+    drone.command(vehicle::MotionCommand{});
+    drone.run(1ms);
+  }
+  EXPECT_LE(drone.controlsOf("MotionInputCtrl").size(), 31u);
+  drone.command(forward());
+  drone.run(40ms);
+  EXPECT_FALSE(drone.isAtRest());
+  drone.session.stop(drone.now, drone);
+  EXPECT_TRUE(drone.isAtRest());
 }
 
 struct Axis {
@@ -432,6 +482,39 @@ TEST(BlueyeSession, AsksWhenTelemetryMayBeOlderThanTheLastReply) {
   EXPECT_EQ(drone.registry.size(), 1u);
 }
 
+TEST(BlueyeSession, CountsLossOfControlRightAfterItWasGiven) {
+  for (const bool answered : {true, false}) {
+    ScriptedDrone drone;
+    drone.giveControl();
+    ASSERT_TRUE(drone.session.inControl());
+    EXPECT_EQ(drone.command(forward()), "");
+    drone.in_control = drone.addClient("Blueye App");
+    if (!answered) drone.hold();
+    drone.tellClients();  // within the second in which telemetry may be old
+    drone.controls.clear();
+    EXPECT_THAT(drone.command(forward()), HasSubstr("in control")) << answered;
+    drone.run(2500ms);
+    EXPECT_THAT(drone.controls, IsEmpty()) << answered;
+    EXPECT_FALSE(drone.session.inControl()) << answered;
+  }
+}
+
+TEST(BlueyeSession, AsksWhoIsInControlUntilItIsTold) {
+  ScriptedDrone drone;
+  const auto app = drone.addClient("Blueye App");
+  drone.giveControl();
+  pb::ConnectedClientsTel old;  // overtaken by the reply
+  old.set_client_id_in_control(app);
+  old.add_connected_clients()->set_client_id(app);
+  drone.hold();
+  drone.tell(old);
+  drone.run(2100ms);
+  EXPECT_FALSE(drone.session.inControl());
+  drone.letGo();
+  drone.run(1100ms);
+  EXPECT_TRUE(drone.session.inControl());
+}
+
 TEST(BlueyeSession, ForgetsEverythingWithTheConnection) {
   ScriptedDrone drone;
   drone.giveControl();
@@ -472,8 +555,94 @@ TEST(BlueyeSession, StopSendsZerosAtOnceAndPausesTheMission) {
   EXPECT_EQ(drone.controlsOf("GripperCtrl").size(), 1u);
   EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 1u);
   drone.controls.clear();
-  drone.session.abort(drone.now, drone);
+  EXPECT_TRUE(drone.session.abort(drone.now, drone).success);
   EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 1u);
+  drone.tell(missionIn(pb::MISSION_STATE_PAUSED));
+  drone.run(1100ms);
+  EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 1u);
+  EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 3u);
+  drone.tell(missionIn(pb::MISSION_STATE_INACTIVE));
+  drone.run(5s);
+  EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 3u);
+}
+
+TEST(BlueyeSession, AbortThatSendsNothingIsNoSuccess) {
+  ScriptedDrone drone;
+  drone.connect();
+  auto answer = drone.session.abort(drone.now, drone);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("nothing was sent"));
+  EXPECT_THAT(drone.controls, IsEmpty());
+  drone.giveControl();
+  drone.link_takes = false;
+  answer = drone.session.abort(drone.now, drone);
+  EXPECT_FALSE(answer.success);
+  drone.link_takes = true;
+  drone.run(25ms);
+  EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 1u);
+}
+
+TEST(BlueyeSession, AMissionThatIsLoadedAnewIsNotClearedByTheAbortBeforeIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.session.abort(drone.now, drone);
+  drone.session.request(
+      drone.now, "blueye.protocol.SetMissionReq", {}, 500ms, [](const auto&) {}, drone);
+  drone.controls.clear();
+  drone.run(10s);
+  EXPECT_THAT(drone.controlsOf("ClearMissionCtrl"), IsEmpty());
+}
+
+TEST(BlueyeSession, StopPausesAMissionThatTheDroneHasNotToldOfYet) {
+  for (const bool told_ready : {true, false}) {
+    ScriptedDrone drone;
+    drone.giveControl();
+    if (told_ready) drone.tell(missionIn(pb::MISSION_STATE_READY));
+    ConfirmedControls::Control run;
+    run.type = "blueye.protocol.RunMissionCtrl";
+    drone.session.control(drone.now, std::move(run), drone);
+    drone.session.stop(drone.now, drone);
+    EXPECT_EQ(drone.controls.back().type, "PauseMissionCtrl");
+    // What the drone told before it began does not count, nor that it runs.
+    drone.tell(missionIn(pb::MISSION_STATE_READY));
+    drone.run(600ms);
+    drone.tell(missionIn(pb::MISSION_STATE_RUNNING));
+    drone.run(600ms);
+    EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 3u);
+    EXPECT_THAT(drone.requestNames(), Contains("GetTelemetryReq"));
+    drone.tell(missionIn(pb::MISSION_STATE_PAUSED));
+    drone.controls.clear();
+    drone.run(10s);
+    EXPECT_THAT(drone.controlsOf("PauseMissionCtrl"), IsEmpty());
+  }
+}
+
+TEST(BlueyeSession, StopGoesOnPausingWhenTheGateIsClosedAfterIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.tell(missionIn(pb::MISSION_STATE_RUNNING));
+  drone.session.stop(drone.now, drone);
+  drone.session.setCommandsEnabled(drone.now, false);
+  drone.run(1100ms);
+  EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 3u);
+  drone.in_control = drone.addClient("Blueye App");
+  drone.run(1s);  // past what may be older than a reply
+  drone.tellClients();
+  drone.controls.clear();
+  drone.run(5s);
+  EXPECT_THAT(drone.controls, IsEmpty());  // it would pause what the other one runs
+}
+
+TEST(BlueyeSession, AMissionThatIsRunAgainIsNotPausedByTheStopBeforeIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.session.stop(drone.now, drone);
+  ConfirmedControls::Control run;
+  run.type = "blueye.protocol.RunMissionCtrl";
+  drone.session.control(drone.now, std::move(run), drone);
+  drone.controls.clear();
+  drone.run(10s);
+  EXPECT_THAT(drone.controlsOf("PauseMissionCtrl"), IsEmpty());
 }
 
 TEST(BlueyeSession, RefusesCommandsFromBeforeTheStop) {
