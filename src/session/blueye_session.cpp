@@ -448,6 +448,16 @@ std::string BlueyeSession::refusal() const {
   return "this client is not in control; service take_control takes it";
 }
 
+std::string BlueyeSession::refusal(const Now& now, SteadyTime received) const {
+  const std::string reason = refusal();
+  if (!reason.empty()) return reason;
+  if (received < permitted_since_) return "it is from before the last stop or permission";
+  if (now.steady - received >= options_.command_timeout) {
+    return "it waited in this computer for longer than command_timeout";
+  }
+  return {};
+}
+
 Grant BlueyeSession::grant() const {
   if (!connected_ || !registered()) return Grant::Unknown;
   return inControl() ? Grant::Granted : Grant::Denied;
@@ -455,13 +465,7 @@ Grant BlueyeSession::grant() const {
 
 std::string BlueyeSession::command(const Now& now, const vehicle::DroneCommand& command,
                                    SteadyTime received) {
-  std::string reason = refusal();
-  if (reason.empty() && received < permitted_since_) {
-    reason = "it is from before the last stop or permission";
-  }
-  if (reason.empty() && now.steady - received >= options_.command_timeout) {
-    reason = "it waited in this computer for longer than command_timeout";
-  }
+  const std::string reason = refusal(now, received);
   if (!reason.empty()) {
     ++counters_.refused_commands;
     return reason;
@@ -606,8 +610,10 @@ std::string BlueyeSession::refusalOf(std::string_view control_type) const {
   return refusal();
 }
 
-void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, BlueyeOutput& out) {
-  const std::string reason = refusalOf(control.type);
+void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, BlueyeOutput& out,
+                            std::optional<SteadyTime> received) {
+  std::string reason = refusalOf(control.type);
+  if (reason.empty() && received) reason = refusal(now, *received);
   if (!reason.empty()) {
     ++counters_.refused_commands;
     if (control.respond) control.respond(reason);

@@ -133,8 +133,9 @@ class BlueyeSession {
   void releaseControl(const vehicle::Now& now, Respond respond, BlueyeOutput& out);
 
   /// One control message with gate and control as for a command. Motion, tilt, gripper and watchdog
-  /// have owners and are refused.
-  void control(const vehicle::Now& now, ConfirmedControls::Control control, BlueyeOutput& out);
+  /// have owners and are refused. `received` as of a command, where it may have waited.
+  void control(const vehicle::Now& now, ConfirmedControls::Control control, BlueyeOutput& out,
+               std::optional<SteadyTime> received = std::nullopt);
 
   /// Any request, answered with the reply or the reason why there is none.
   void request(const vehicle::Now& now, std::string type, std::string payload,
@@ -164,6 +165,8 @@ class BlueyeSession {
   vehicle::Grant grant() const;
   /// Why a command would be refused now; empty if it would not.
   std::string refusal() const;
+  /// Also when it reached this computer at `received`: too old, or from before a stop.
+  std::string refusal(const vehicle::Now& now, SteadyTime received) const;
   bool commandsEnabled() const { return commands_enabled_; }
   bool commanding() const { return held_.commanding(); }
   const std::optional<vehicle::DroneCommand>& commanded() const { return held_.motion(); }

@@ -66,32 +66,34 @@ Input::Input(ros::NodeHandle node, std::string name, const Parameters& parameter
         if (!refusal.empty()) return refusal;
         return session_.command(now, vehicle::GripperCommand{wanted.grip, wanted.rotate}, at);
       });
-  subscribe<std_msgs::Float64>(topics::kCmdLights,
-                               [this](const auto& now, const auto& wanted, auto, auto& out) {
-                                 return level<pb::LightsCtrl>(now, "LightsTel", wanted.data, out);
-                               });
   subscribe<std_msgs::Float64>(
-      topics::kCmdGuestPortLights, [this](const auto& now, const auto& wanted, auto, auto& out) {
-        return level<pb::GuestportLightsCtrl>(now, "GuestPortLightsTel", wanted.data, out);
+      topics::kCmdLights, [this](const auto& now, const auto& wanted, auto at, auto& out) {
+        return level<pb::LightsCtrl>(now, "LightsTel", wanted.data, at, out);
       });
   subscribe<std_msgs::Float64>(
-      topics::kCmdLaser, [this](const auto& now, const auto& wanted, auto, auto& out) {
+      topics::kCmdGuestPortLights, [this](const auto& now, const auto& wanted, auto at, auto& out) {
+        return level<pb::GuestportLightsCtrl>(now, "GuestPortLightsTel", wanted.data, at, out);
+      });
+  subscribe<std_msgs::Float64>(
+      topics::kCmdLaser, [this](const auto& now, const auto& wanted, auto at, auto& out) {
         const std::string refusal = outside("data", wanted.data, 0.0, 1.0);
         if (!refusal.empty()) return refusal;
         pb::LaserCtrl message;
         message.mutable_laser()->set_value(static_cast<float>(wanted.data));
-        return control(now, message, out);
+        return control(now, {message.GetTypeName(), message.SerializeAsString()}, at, out);
       });
-  subscribe<sensor_msgs::JointState>(topics::kCmdJoint,
-                                     [this](const auto& now, const auto& wanted, auto, auto& out) {
-                                       return turn(now, wanted, out);
-                                     });
-  subscribe<sensor_msgs::NavSatFix>(topics::kPilotPosition,
-                                    [this](const auto& now, const auto& wanted, auto, auto& out) {
-                                      return pilotAt(now, wanted, out);
-                                    });
-  subscribe<BlueyeMessage>(topics::kControlIn, [this](const auto& now, const auto& wanted, auto,
-                                                      auto& out) { return raw(now, wanted, out); });
+  subscribe<sensor_msgs::JointState>(
+      topics::kCmdJoint, [this](const auto& now, const auto& wanted, auto at, auto& out) {
+        return turn(now, wanted, at, out);
+      });
+  subscribe<sensor_msgs::NavSatFix>(
+      topics::kPilotPosition, [this](const auto& now, const auto& wanted, auto at, auto& out) {
+        return pilotAt(now, wanted, at, out);
+      });
+  subscribe<BlueyeMessage>(topics::kControlIn,
+                           [this](const auto& now, const auto& wanted, auto at, auto& out) {
+                             return raw(now, wanted, at, out);
+                           });
 }
 
 // Without tcpNoDelay small messages wait up to 40 ms for each other.
@@ -106,7 +108,7 @@ void Input::subscribe(const char* topic, Function take) {
         const auto received = std::chrono::steady_clock::now() - waited(event.getReceiptTime());
         post(mailbox, [this, take, topic, received, message = event.getConstMessage()](
                           const vehicle::Now& now, BlueyeOutput& out) {
-          warn(now, topic, take(now, *message, received, out));
+          takeCounted(now, topic, [&] { return take(now, *message, received, out); });
         });
       });
   options.transport_hints = ros::TransportHints().tcpNoDelay();
@@ -128,37 +130,45 @@ void Input::post(Mailbox& mailbox, Task task) {
   });
 }
 
+// The session counts what it refuses itself.
+template <class Take>
+void Input::takeCounted(const vehicle::Now& now, const char* topic, Take take) {
+  const std::uint64_t before = session_.counters().refused_commands;
+  const std::string refusal = take();
+  if (refusal.empty()) return;
+  if (session_.counters().refused_commands == before) session_.countRefusedCommands(1);
+  warn(now, topic, refusal);
+}
+
 void Input::warn(const vehicle::Now& now, const char* topic, const std::string& refusal) {
-  if (refusal.empty() || now.steady < next_warning_) return;
-  next_warning_ = now.steady + kWarnAtMostEvery;
+  vehicle::SteadyTime& next_warning = next_warnings_[topic];
+  if (now.steady < next_warning) return;
+  next_warning = now.steady + kWarnAtMostEvery;
   ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
 }
 
 std::string Input::move(const vehicle::Now& now, const ConvertedMotion& wanted,
                         vehicle::SteadyTime received) {
-  if (const auto* refusal = std::get_if<std::string>(&wanted)) {
-    session_.countRefusedCommands(1);
-    return *refusal;
-  }
+  if (const auto* refusal = std::get_if<std::string>(&wanted)) return *refusal;
   return session_.command(now, std::get<vehicle::DroneCommand>(wanted), received);
 }
 
-template <class Message>
-std::string Input::control(const vehicle::Now& now, const Message& message, BlueyeOutput& out) {
+std::string Input::control(const vehicle::Now& now, Wanted wanted, vehicle::SteadyTime received,
+                           BlueyeOutput& out) {
   std::string refusal;
-  session::ConfirmedControls::Control wanted;
-  wanted.type = message.GetTypeName();
-  wanted.payload = message.SerializeAsString();
-  wanted.respond = [&refusal](const std::string& reason) { refusal = reason; };
-  session_.control(now, std::move(wanted), out);
+  session::ConfirmedControls::Control once;
+  once.type = std::move(wanted.type);
+  once.payload = std::move(wanted.payload);
+  once.respond = [&refusal](const std::string& reason) { refusal = reason; };
+  session_.control(now, std::move(once), out, received);
   return refusal;
 }
 
 template <class Message>
 std::string Input::level(const vehicle::Now& now, const char* type, double value,
-                         BlueyeOutput& out) {
+                         vehicle::SteadyTime received, BlueyeOutput& out) {
   std::string refusal = outside("data", value, 0.0, 1.0);
-  if (refusal.empty()) refusal = session_.refusal();
+  if (refusal.empty()) refusal = session_.refusal(now, received);
   if (!refusal.empty()) return refusal;
   Message message;
   message.mutable_lights()->set_value(static_cast<float>(value));
@@ -178,20 +188,27 @@ std::string Input::level(const vehicle::Now& now, const char* type, double value
 }
 
 std::string Input::turn(const vehicle::Now& now, const sensor_msgs::JointState& joints,
-                        BlueyeOutput& out) {
+                        vehicle::SteadyTime received, BlueyeOutput& out) {
   if (joints.name.size() != joints.position.size()) {
     return "it has " + std::to_string(joints.name.size()) + " names and " +
            std::to_string(joints.position.size()) + " positions; as many of both are accepted";
   }
+  std::string refusal = session_.refusal(now, received);
+  if (!refusal.empty()) return refusal;
+  std::vector<Wanted> all;  // none is sent before each is known to be good
   for (std::size_t i = 0; i < joints.name.size(); ++i) {
-    const std::string refusal = turn(now, joints.name[i], joints.position[i], out);
-    if (!refusal.empty()) return refusal;
+    Checked one = turn(joints.name[i], joints.position[i]);
+    if (const auto* wrong = std::get_if<std::string>(&one)) return *wrong;
+    all.push_back(std::get<Wanted>(std::move(one)));
   }
-  return {};
+  for (Wanted& one : all) {
+    const std::string failed = control(now, std::move(one), received, out);
+    if (refusal.empty()) refusal = failed;
+  }
+  return refusal;
 }
 
-std::string Input::turn(const vehicle::Now& now, const std::string& joint, double position_rad,
-                        BlueyeOutput& out) {
+Input::Checked Input::turn(const std::string& joint, double position_rad) const {
   const Conventions& how = parameters_.publisher.navigation.conventions;
   if (joint == "multibeam_tilt") {
     const std::string refusal = outside("position", position_rad, -M_PI_2, M_PI_2);
@@ -200,7 +217,7 @@ std::string Input::turn(const vehicle::Now& now, const std::string& joint, doubl
     pb::MultibeamServoCtrl message;
     message.mutable_servo()->set_angle(
         static_cast<float>(std::clamp(up_deg, -kMultibeamLimit_deg, kMultibeamLimit_deg)));
-    return control(now, message, out);
+    return ready(message);
   }
   int port = 0;
   if (std::sscanf(joint.c_str(), "guest_port_%d_servo", &port) != 1 || port < 1 || port > 6) {
@@ -213,11 +230,11 @@ std::string Input::turn(const vehicle::Now& now, const std::string& joint, doubl
   pb::GenericServoCtrl message;
   message.mutable_servo()->set_value(static_cast<float>(share));
   message.mutable_servo()->set_guest_port_number(static_cast<pb::GuestPortNumber>(port));
-  return control(now, message, out);
+  return ready(message);
 }
 
 std::string Input::pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix& fix,
-                           BlueyeOutput& out) {
+                           vehicle::SteadyTime received, BlueyeOutput& out) {
   const bool has_fix = fix.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX;
   if (!has_fix || now.steady < next_pilot_) return {};
   std::string refusal = outside("latitude", fix.latitude, -90.0, 90.0);
@@ -227,22 +244,17 @@ std::string Input::pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix
   pb::PilotGPSPositionCtrl message;
   message.mutable_position()->set_latitude(fix.latitude);
   message.mutable_position()->set_longitude(fix.longitude);
-  return control(now, message, out);
+  return control(now, {message.GetTypeName(), message.SerializeAsString()}, received, out);
 }
 
-std::string Input::raw(const vehicle::Now& now, const BlueyeMessage& message, BlueyeOutput& out) {
+std::string Input::raw(const vehicle::Now& now, const BlueyeMessage& message,
+                       vehicle::SteadyTime received, BlueyeOutput& out) {
   const std::string bytes{message.data.begin(), message.data.end()};
   // Through JSON and back: so a NaN is found, and bytes that are not of the type.
   const auto json = catalogue_.toJson(message.type, bytes);
   const auto checked = json.ok ? catalogue_.fromJson(message.type, json.text) : json;
   if (!checked.ok) return checked.text;
-  std::string refusal;
-  session::ConfirmedControls::Control wanted;
-  wanted.type = protocol::BlueyeCatalogue::fullName(message.type);
-  wanted.payload = bytes;
-  wanted.respond = [&refusal](const std::string& reason) { refusal = reason; };
-  session_.control(now, std::move(wanted), out);
-  return refusal;
+  return control(now, {protocol::BlueyeCatalogue::fullName(message.type), bytes}, received, out);
 }
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer

@@ -12,8 +12,10 @@
 #include <std_msgs/Float64.h>
 
 #include <list>
+#include <map>
 #include <mutex>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "blueye/parameters.h"
@@ -22,7 +24,8 @@
 namespace frontseat_driver::ros_layer::blueye_layer {
 
 /// Takes commands from topics to the session. Of each topic only the newest message waits, however
-/// fast they come. What cannot be used is refused whole, with one throttled warning.
+/// fast they come. What cannot be used, and what waited too long or across a stop, is refused
+/// whole and counted, with a throttled warning for each topic.
 class Input {
  public:
   /// `name` stands before log lines. Session and catalogue must outlive every posted task.
@@ -43,22 +46,36 @@ class Input {
   void subscribe(const char* topic, Function take);
   void post(Mailbox& mailbox, Task task);
 
+  /// A control message ready to be sent.
+  struct Wanted {
+    std::string type;  ///< with package
+    std::string payload;
+  };
+  /// Or why it is refused.
+  using Checked = std::variant<std::string, Wanted>;
+
+  template <class Message>
+  static Checked ready(const Message& message) {
+    return Wanted{message.GetTypeName(), message.SerializeAsString()};
+  }
+
   // On the session's thread; each returns why it was refused, or nothing.
   std::string move(const vehicle::Now& now, const ConvertedMotion& wanted,
                    vehicle::SteadyTime received);
   template <class Message>
   std::string level(const vehicle::Now& now, const char* type, double value,
-                    session::BlueyeOutput& out);
+                    vehicle::SteadyTime received, session::BlueyeOutput& out);
   std::string turn(const vehicle::Now& now, const sensor_msgs::JointState& joints,
-                   session::BlueyeOutput& out);
-  std::string turn(const vehicle::Now& now, const std::string& joint, double position_rad,
-                   session::BlueyeOutput& out);
+                   vehicle::SteadyTime received, session::BlueyeOutput& out);
+  Checked turn(const std::string& joint, double position_rad) const;
   std::string pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix& fix,
-                      session::BlueyeOutput& out);
+                      vehicle::SteadyTime received, session::BlueyeOutput& out);
   std::string raw(const vehicle::Now& now, const BlueyeMessage& message,
-                  session::BlueyeOutput& out);
-  template <class Message>
-  std::string control(const vehicle::Now& now, const Message& message, session::BlueyeOutput& out);
+                  vehicle::SteadyTime received, session::BlueyeOutput& out);
+  std::string control(const vehicle::Now& now, Wanted wanted, vehicle::SteadyTime received,
+                      session::BlueyeOutput& out);
+  template <class Take>
+  void takeCounted(const vehicle::Now& now, const char* topic, Take take);
   void warn(const vehicle::Now& now, const char* topic, const std::string& refusal);
 
   ros::NodeHandle node_;
@@ -69,7 +86,7 @@ class Input {
   const Post post_;
   std::list<Mailbox> mailboxes_;  ///< one for each topic
   Mailbox* motion_ = nullptr;     ///< of cmd_vel and cmd_motion together
-  vehicle::SteadyTime next_warning_{};
+  std::map<std::string, vehicle::SteadyTime> next_warnings_;  ///< by topic
   vehicle::SteadyTime next_pilot_{};
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -8,10 +8,11 @@ import unittest
 
 import rospy
 import rostest
-from frontseat_driver.msg import BlueyeMessage, ControlStatus
+from frontseat_driver.msg import BlueyeMessage, ControlStatus, Gripper, LinkStatus
 from frontseat_driver.srv import BlueyeControl, BlueyeRequest, LoadMission
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState, NavSatFix
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
@@ -128,6 +129,30 @@ class BlueyeLive(unittest.TestCase):
         wait_until(lit, "light")
         self.assertTrue(call(pair.name + "/release_control", Trigger).success)
         wait_until(lambda: pair.grant() == ControlStatus.DENIED, "an observer again")
+
+    def test_what_is_refused_is_refused_whole_counted_and_told_for_each_topic(self):
+        pair = self.pair("refused")
+        pair.take_control()
+        link = Collector(pair.name + "/link", LinkStatus)
+        half_good = JointState(name=["guest_port_1_servo", "guest_port_2_servo"],
+                               position=[0.1, math.nan])
+        wrong = {"cmd_joint": half_good, "cmd_tilt": Float64(2.0), "cmd_gripper": Gripper(grip=2),
+                 "cmd_lights": Float64(-1), "cmd_laser": Float64(math.nan),
+                 "blueye/control": BlueyeMessage(type="NoSuchCtrl"),
+                 "pilot/position": NavSatFix(latitude=91)}
+        counted = 0
+        for topic, message in wrong.items():
+            publisher = rospy.Publisher(pair.name + "/" + topic, type(message), queue_size=1)
+            wait_until(publisher.get_num_connections, topic)
+            publisher.publish(message)
+            wait_until(lambda topic=topic: any("refused " + topic + ":" in line
+                                               for line in pair.driver.output),
+                       "the warning of " + topic)
+            counted += 1
+            wait_until(lambda: link.received and
+                       link.received[-1][1].refused_commands == counted, "the count of " + topic)
+        self.assertFalse([message.type for _, message in pair.sent.received
+                          if message.type.endswith("ServoCtrl")])
 
     def test_runs_a_mission(self):
         pair = self.pair("mission")

@@ -655,6 +655,28 @@ TEST(BlueyeSession, RefusesCommandsFromBeforeTheStop) {
   EXPECT_EQ(drone.command(forward()), "");
 }
 
+TEST(BlueyeSession, RefusesOtherControlsThatWaitedTooLongOrAcrossAStop) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  const auto send = [&](vehicle::SteadyTime received) {
+    std::string refusal = "not answered";
+    ConfirmedControls::Control light;
+    light.type = "blueye.protocol.LightsCtrl";
+    light.respond = [&](const std::string& given) { refusal = given; };
+    drone.session.control(drone.now, std::move(light), drone, received);
+    return refusal;
+  };
+  EXPECT_EQ(send(drone.now.steady), "");
+  const auto received = drone.now.steady;
+  drone.run(10ms);
+  drone.session.stop(drone.now, drone);
+  EXPECT_THAT(send(received), HasSubstr("before the last stop"));
+  drone.run(1s);
+  EXPECT_THAT(send(drone.now.steady - 1s), HasSubstr("command_timeout"));
+  EXPECT_EQ(drone.controlsOf("LightsCtrl").size(), 1u);
+  EXPECT_EQ(drone.session.counters().refused_commands, 2u);
+}
+
 TEST(BlueyeSession, ClosingTheGateSendsZeroAndOpeningRevivesNothing) {
   ScriptedDrone drone;
   drone.giveControl();
