@@ -73,6 +73,11 @@ class Documentation(unittest.TestCase):
         for path in package.files("msg", ".msg") + package.files("srv", ".srv"):
             self.assertIn(os.path.basename(path), build)
 
+    def test_every_test_is_run(self):
+        lists = "".join(package.read(path) for path in package.files("test", "CMakeLists.txt"))
+        for path in package.files("test", ".test", "_test.cpp"):
+            self.assertIn(os.path.basename(path), lists)
+
     def test_nothing_is_left_open_and_nothing_names_one_machine(self):
         for path in package.tracked_files():
             binary = path.startswith(os.path.join("test", "fuzz", "corpus"))
