@@ -15,8 +15,8 @@ using vehicle::DroneCommand;
 constexpr int kZeros = 4;  // at once and each second for three seconds
 constexpr auto kZeroPeriod = 1s;
 constexpr auto kRepeatPeriod = 500ms;
-constexpr auto kRetry = 20ms;  // what the link did not take
-constexpr std::chrono::nanoseconds kLeastPeriod = 1000000us / 30;
+constexpr auto kRetry = 20ms;           // what the link did not take
+constexpr auto kLeastPeriod = 33334us;  // 30 of them are a second
 
 template <class Message>
 bool publish(const vehicle::Now& now, const Message& message, BlueyeOutput& out) {
@@ -71,9 +71,11 @@ void HeldControls::put(const DroneCommand& command, SteadyTime received) {
 }
 
 void HeldControls::end(Held& held, SteadyTime now) {
+  // A zero that has only just gone out is the first one.
+  const bool done = held.resting && now < held.next;
   held.slot.clear();
-  held.zeros = kZeros;
-  held.zero_due = now;
+  held.zeros = done ? kZeros - 1 : kZeros;
+  held.zero_due = done ? now + kZeroPeriod : now;
 }
 
 void HeldControls::end(SteadyTime now, bool all) {
@@ -86,24 +88,35 @@ void HeldControls::forget() {
   for (Held& held : held_) {
     held.slot.clear();
     held.zeros = 0;
+    held.resting = false;  // whoever is in control next may move it
   }
 }
 
 void HeldControls::step(const vehicle::Now& now, BlueyeOutput& out) {
-  for (std::size_t kind = 0; kind < held_.size(); ++kind) {
-    Held& held = held_[kind];
-    if (held.slot.stale(now.steady)) end(held, now.steady);
-    if (held.zeros > 0 && now.steady >= held.zero_due) {
-      // One that was not taken counts as not sent.
-      if (send(now, zeroOf(kind), out)) --held.zeros;
-      held.zero_due = now.steady + (held.zeros == kZeros ? kRetry : kZeroPeriod);
-      held.resting = held.zeros < kZeros;
-    }
-    if (const DroneCommand* due = held.slot.due(now.steady)) {
-      held.resting = send(now, *due, out) && isZero(*due);
-      held.slot.sent(now.steady);
-      held.next = now.steady + kLeastPeriod;
-    }
+  for (std::size_t kind = 0; kind < held_.size(); ++kind) step(now, kind, out);
+}
+
+// What was not taken counts as not sent.
+void HeldControls::step(const vehicle::Now& now, std::size_t kind, BlueyeOutput& out) {
+  Held& held = held_[kind];
+  const auto sendOne = [&](const DroneCommand& command) {
+    if (!send(now, command, out)) return false;
+    held.resting = isZero(command);
+    held.next = std::max(held.next, now.steady) + kLeastPeriod;
+    return true;
+  };
+  if (held.slot.stale(now.steady)) end(held, now.steady);
+  if (held.zeros > 0 && now.steady >= held.zero_due) {
+    if (sendOne(zeroOf(kind))) --held.zeros;
+    held.zero_due = now.steady + (held.zeros == kZeros ? kRetry : kZeroPeriod);
+  }
+  const DroneCommand* due = held.slot.due(now.steady);
+  if (due == nullptr) return;
+  if (sendOne(*due)) {
+    held.slot.sent(now.steady);
+    held.slot.putOff(std::max(held.slot.nextDue(), held.next));
+  } else {
+    held.slot.putOff(now.steady + kRetry);
   }
 }
 
@@ -145,7 +158,7 @@ bool HeldControls::zerosDue() const {
 
 bool ConfirmedControls::add(const vehicle::Now& now, Control control, BlueyeOutput& out) {
   for (auto it = waiting_.begin(); it != waiting_.end();) {
-    const bool same = it->control.type == control.type;
+    const bool same = it->control.type == control.type && it->control.stops == control.stops;
     if (same && it->control.respond) it->control.respond("a newer one took its place");
     it = same ? waiting_.erase(it) : std::next(it);
   }

@@ -30,13 +30,17 @@ constexpr auto kAskForConfirmation = 300ms;
 constexpr double kMostRate_hz = 100.0;  // the document, SetPubFrequencyReq
 
 // What a program wants to know at once, and the drone tells only when it changes.
-constexpr std::array<const char*, 8> kAskedAtStart{
-    "DroneInfoTel", "ControlModeTel", "ConnectedClientsTel", "MissionStatusTel",
-    "BatteryTel",   "LightsTel",      "RecordStateTel",      "MagneticDeclinationTel"};
+constexpr std::array<const char*, 7> kAskedAtStart{
+    "DroneInfoTel", "ControlModeTel", "MissionStatusTel",      "BatteryTel",
+    "LightsTel",    "RecordStateTel", "MagneticDeclinationTel"};
 
 constexpr const char* kNoConnection = "there is no connection to the vehicle";
 constexpr const char* kLeaving = "the driver is stopping";
 constexpr const char* kTooLate = "the drone answered too late; control is given back";
+constexpr const char* kNoAnswer =
+    "the drone has not answered in time; if control comes, it is given back";
+constexpr const char* kNotTaken =
+    "commanding has ended; the link did not take all of it, which is sent again";
 constexpr const char* kReleasing = "control is being given back";
 constexpr const char* kRecord = "a record is being played";
 
@@ -208,8 +212,8 @@ void BlueyeSession::registerClient(const Now& now, bool observer, Then then, Blu
   info.set_is_observer(observer);
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
-      [this, observer, then = std::move(then)](const Now& at, const BlueyeReply& reply,
-                                               BlueyeOutput& o) {
+      [this, observer, asked = told_, then = std::move(then)](
+          const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
         registering_ = false;
         loseRegistration(at);  // what was commanded under the one before is not this one's
         pb::ConnectClientRep message;
@@ -223,7 +227,7 @@ void BlueyeSession::registerClient(const Now& now, bool observer, Then then, Blu
         id_ = message.client_id();
         as_observer_ = observer;
         registered_since_ = at.steady;
-        learnClients(at, message, o);
+        learnClients(at, message, asked, o);
         if (then) then(at, o);
       },
       out);
@@ -236,13 +240,14 @@ void BlueyeSession::unregister(const Now& now, std::uint32_t id, Then then, Blue
   const auto timeout = leaving_ ? kGoodbyeTimeout : options_.request_timeout;
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), timeout,
-      [this, then = std::move(then)](const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
+      [this, asked = told_, then = std::move(then)](const Now& at, const BlueyeReply& reply,
+                                                    BlueyeOutput& o) {
         registering_ = false;
         if (leaving_) goodbye_said_ = true;
         // Nothing of what was to follow may wait for the next connection.
         if (!connected_ || leaving_) return;
         pb::DisconnectClientRep message;
-        if (reply.received && parse(reply.payload, message)) learnClients(at, message, o);
+        if (reply.received && parse(reply.payload, message)) learnClients(at, message, asked, o);
         then(at, o);
       },
       out);
@@ -250,6 +255,7 @@ void BlueyeSession::unregister(const Now& now, std::uint32_t id, Then then, Blue
 
 void BlueyeSession::setUp(const Now& now, BlueyeOutput& out) {
   for (const auto& [message, rate_hz] : rates_hz_) askForRate(now, message, rate_hz, {}, out);
+  askForClients(now, out);
   for (const char* message : kAskedAtStart) askForTelemetry(now, message, out);
 }
 
@@ -259,14 +265,14 @@ void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, 
   request.set_message_type(message);
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
-      [this, unanswered = std::move(unanswered)](const Now& at, const BlueyeReply& reply,
-                                                 BlueyeOutput& o) {
+      [this, asked = told_, unanswered = std::move(unanswered)](
+          const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
         if (!reply.received && unanswered) unanswered(at, o);
         pb::GetTelemetryRep answer;
         if (!reply.received || !parse(reply.payload, answer)) return;
         const std::string& url = answer.payload().type_url();
         if (url.empty()) return;  // none yet
-        hear(at, std::string_view{url}.substr(url.rfind('/') + 1), answer.payload().value(), true,
+        hear(at, std::string_view{url}.substr(url.rfind('/') + 1), answer.payload().value(), asked,
              o);
       },
       out);
@@ -306,53 +312,63 @@ void BlueyeSession::telemetry(const Now& now, std::string_view type, std::string
                               BlueyeOutput& out) {
   ++counters_.telemetry_received;
   counters_.bytes_received += type.size() + payload.size();
-  hear(now, type, payload, false, out);
+  hear(now, type, payload, std::nullopt, out);
 }
 
 void BlueyeSession::hear(const Now& now, std::string_view type, std::string_view payload,
-                         bool in_order, BlueyeOutput& out) {
+                         std::optional<Asked> asked, BlueyeOutput& out) {
   listener_.telemetry(now, type, payload);
   const std::string_view name = withoutPackage(type);
-  if (name == "ConnectedClientsTel") hearClients(now, payload, in_order, out);
+  if (name == "ConnectedClientsTel") hearClients(now, payload, asked, out);
   if (name == "MissionStatusTel") hearMission(now, payload);
   if (name == "DroneTimeTel") hearClock(now, payload, out);
   confirmed_.telemetry(type, payload);
 }
 
-void BlueyeSession::hearClients(const Now& now, std::string_view payload, bool in_order,
-                                BlueyeOutput& out) {
+// Telemetry and replies come on two connections, so either may be older than what came before it by
+// the other. Word that control is gone counts at once, and may be wrong; control is only gained by
+// a reply, and only if nothing else was told since the question.
+void BlueyeSession::hearClients(const Now& now, std::string_view payload,
+                                std::optional<Asked> asked, BlueyeOutput& out) {
   pb::ConnectedClientsTel message;
   if (!parse(payload, message)) return malformed();
-  // While we come and go ourselves, this may tell of us as we were; that control is gone counts.
-  if (registering_) {
-    const std::uint32_t in_control = message.client_id_in_control();
-    if (inControl() && in_control != id_) setIdInControl(now, in_control, out);
-    return;
+  const std::uint32_t in_control = message.client_id_in_control();
+  const bool names_us = message.connected_clients().empty() || names(message, id_);
+  const bool gives_control = registered() && in_control == id_ && names_us;
+  const bool news = in_control != id_in_control_ || !names_us;
+  if (!asked) {
+    ++told_;
+    told_in_control_ = in_control;
   }
-  // Telemetry and replies come on two connections: for a while this may be older than the last
-  // reply. A reply to a question is not.
-  if (!in_order && now.steady < registered_since_ + kOvertaken && registered() && !silent()) {
-    const std::uint32_t in_control = message.client_id_in_control();
-    if (in_control == id_in_control_ && names(message, id_)) return;
-    // Control that may be gone is gone until the drone says otherwise.
-    if (inControl()) setIdInControl(now, in_control == id_ ? 0 : in_control, out);
-    return askForClients(now, out);
+  if (inControl() && !gives_control) setIdInControl(now, in_control == id_ ? 0 : in_control, out);
+  if (registering_) return;  // while we come and go ourselves, it may tell of us as we were
+  const bool young = now.steady < registered_since_ + kOvertaken;
+  const bool doubtful = (young && news) || (gives_control && !inControl());
+  if (!asked && registered() && !silent() && doubtful) return askForClients(now, out);
+  if (registered() && !names_us) {
+    listener_.note("the drone has disconnected this client; registering again");
+    loseRegistration(now);
+    if (!silent()) register_due_ = now.steady + kRegisterAgain;
   }
-  learnClients(now, message, out);
-  if (!registered() || names(message, id_) || clients_.empty()) return;
-  listener_.note("the drone has disconnected this client; registering again");
-  loseRegistration(now);
-  if (!silent()) register_due_ = now.steady + kRegisterAgain;
+  learnClients(now, message, asked.value_or(told_), out);
 }
 
 template <class Message>
-void BlueyeSession::learnClients(const Now& now, const Message& message, BlueyeOutput& out) {
+void BlueyeSession::learnClients(const Now& now, const Message& message, Asked asked,
+                                 BlueyeOutput& out) {
   clients_.clear();
   for (const pb::ConnectedClient& client : message.connected_clients()) {
     const pb::ClientInfo& info = client.client_info();
     clients_.push_back({client.client_id(), info.name(), info.type(), info.is_observer()});
   }
-  setIdInControl(now, message.client_id_in_control(), out);
+  const std::uint32_t in_control = message.client_id_in_control();
+  const bool gains = registered() && in_control == id_ && !inControl();
+  const bool contradicted = asked != told_ && told_in_control_ != in_control;
+  if (gains && contradicted && !silent()) {
+    askForClients(now, out);
+  } else {
+    setIdInControl(now, in_control, out);
+  }
   listener_.clients(now);
 }
 
@@ -484,27 +500,27 @@ void BlueyeSession::endCommanding(const Now& now, bool all) {
   reportControl(now);
 }
 
-std::string BlueyeSession::stop(const Now& now, BlueyeOutput& out) {
+BlueyeSession::Answer BlueyeSession::stop(const Now& now, BlueyeOutput& out) {
   permitted_since_ = now.steady;
   confirmed_.failAll("commanding was stopped", false);
   if (silent() || !inControl()) {
     endCommanding(now, false);
-    return "commanding has ended; this client is not in control, so nothing was sent";
+    return {false, "commanding has ended; this client is not in control, so nothing was sent"};
   }
   endCommanding(now, true);
   held_.step(now, out);
   // Whatever the drone told last: it may have been told to run one since.
-  confirmed_.add(now, endOfMission<pb::PauseMissionCtrl>(true), out);
-  return "commanding has ended and a mission that runs is paused";
+  const bool paused = confirmed_.add(now, endOfMission<pb::PauseMissionCtrl>(true), out);
+  if (!paused || held_.zerosDue()) return {false, kNotTaken};
+  return {true, "commanding has ended and a mission that runs is paused"};
 }
 
 BlueyeSession::Answer BlueyeSession::abort(const Now& now, BlueyeOutput& out) {
-  const std::string stopped = stop(now, out);
-  if (silent() || !inControl()) return {false, stopped};
-  if (confirmed_.add(now, endOfMission<pb::ClearMissionCtrl>(false), out)) {
-    return {true, "commanding has ended and the mission is cleared"};
-  }
-  return {false, "commanding has ended; the link did not take the rest, which is sent again"};
+  const Answer stopped = stop(now, out);
+  if (silent() || !inControl()) return stopped;
+  const bool cleared = confirmed_.add(now, endOfMission<pb::ClearMissionCtrl>(false), out);
+  if (!cleared || !stopped.success) return {false, kNotTaken};
+  return {true, "commanding has ended and the mission is cleared"};
 }
 
 void BlueyeSession::setCommandsEnabled(const Now& now, bool enabled) {
@@ -555,10 +571,22 @@ void BlueyeSession::continueTaking(const Now& now, BlueyeOutput& out) {
       out);
 }
 
+// A caller is told in time, also while a reply does not come.
+void BlueyeSession::watchTaking(const Now& now, BlueyeOutput& out) {
+  if (!taking_ || now.steady < nextTaking()) return;
+  if (taking_->again != SteadyTime::max()) return continueTaking(now, out);
+  std::exchange(taking_->respond, nullptr)({false, kNoAnswer});
+}
+
+vehicle::SteadyTime BlueyeSession::nextTaking() const {
+  if (!taking_) return SteadyTime::max();
+  return taking_->respond ? std::min(taking_->again, taking_->deadline) : taking_->again;
+}
+
 void BlueyeSession::finishTaking(const Now& now, const Answer& answer, BlueyeOutput& out) {
   const Respond respond = std::move(taking_->respond);
   taking_.reset();
-  respond(answer);
+  if (respond) respond(answer);
   // Else control would come later, when nobody expects it.
   const bool go_back = !answer.success && registered() && options_.observer && !as_observer_;
   if (go_back && connected_ && !silent())
@@ -673,7 +701,7 @@ void BlueyeSession::step(const Now& now, BlueyeOutput& out) {
   askForConfirmations(now, out);
   if (now.steady >= register_due_) ping(now, out);
   if (now.steady >= ask_clients_due_) askForClients(now, out);
-  if (taking_ && now.steady >= taking_->again) continueTaking(now, out);
+  watchTaking(now, out);
   requests_.step(now, out);
 }
 
@@ -711,8 +739,7 @@ void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
 vehicle::SteadyTime BlueyeSession::nextStep() const {
   if (!reported_) return SteadyTime::min();
   return std::min({held_.nextStep(), watchdog_due_, confirmed_.nextStep(), register_due_,
-                   ask_clients_due_, requests_.nextStep(),
-                   taking_ ? taking_->again : SteadyTime::max(),
+                   ask_clients_due_, requests_.nextStep(), nextTaking(),
                    confirmed_.empty() ? SteadyTime::max() : ask_confirmations_});
 }
 

@@ -19,7 +19,7 @@ namespace frontseat_driver::session {
 /// each second for three seconds, since a control message may be lost and is never answered.
 ///
 /// No more than 30 of a kind go out in a second, the newest each time: a drone keeps what comes
-/// faster and acts on it late. Zero does not wait.
+/// faster and acts on it late. Zero does not wait; what follows it waits for longer.
 class HeldControls {
  public:
   using SteadyTime = vehicle::SteadyTime;
@@ -53,11 +53,12 @@ class HeldControls {
     BasicCommandSlot<vehicle::DroneCommand> slot;
     int zeros = 0;  ///< still to go out
     SteadyTime zero_due{};
-    SteadyTime next{};     ///< no command but zero goes out before
+    SteadyTime next{};     ///< only zero goes out before, and only if what went out last was not
     bool resting = false;  ///< what went out last was zero
   };
 
   void end(Held& held, SteadyTime now);
+  void step(const vehicle::Now& now, std::size_t kind, BlueyeOutput& out);
   bool send(const vehicle::Now& now, const vehicle::DroneCommand& command, BlueyeOutput& out) const;
 
   std::array<Held, std::variant_size_v<vehicle::DroneCommand>> held_;
@@ -84,7 +85,8 @@ class ConfirmedControls {
     Respond respond;  ///< may be empty
   };
 
-  /// Takes the place of one of the same type that waits. False if the link did not take it.
+  /// Takes the place of one of the same type that waits, but not of one that ends something.
+  /// False if the link did not take it.
   bool add(const vehicle::Now& now, Control control, BlueyeOutput& out);
 
   void telemetry(std::string_view type, std::string_view payload);

@@ -120,8 +120,8 @@ class BlueyeSession {
 
   /// Ends commanding: zero motion, tilt and gripper, and a mission is paused, again until the drone
   /// shows that none runs. Not in control, nothing is sent, since it would stop somebody else.
-  /// Returns what was done.
-  std::string stop(const vehicle::Now& now, BlueyeOutput& out);
+  /// No success when nothing was sent.
+  Answer stop(const vehicle::Now& now, BlueyeOutput& out);
 
   /// As stop(), and the mission is unloaded. No success when nothing was sent.
   Answer abort(const vehicle::Now& now, BlueyeOutput& out);
@@ -177,8 +177,10 @@ class BlueyeSession {
   struct Taking {
     SteadyTime deadline;
     SteadyTime again;  ///< max: a request is under way
-    Respond respond;
+    Respond respond;   ///< empty: the caller has been told that it is too late
   };
+  /// How many ConnectedClientsTel had been heard when a question was asked.
+  using Asked = std::uint64_t;
   using Then = std::function<void(const vehicle::Now&, BlueyeOutput&)>;
 
   void ping(const vehicle::Now& now, BlueyeOutput& out);
@@ -192,19 +194,22 @@ class BlueyeSession {
   void askForClients(const vehicle::Now& now, BlueyeOutput& out);
   void askForConfirmations(const vehicle::Now& now, BlueyeOutput& out);
   void continueTaking(const vehicle::Now& now, BlueyeOutput& out);
+  void watchTaking(const vehicle::Now& now, BlueyeOutput& out);
+  SteadyTime nextTaking() const;
   void finishTaking(const vehicle::Now& now, const Answer& answer, BlueyeOutput& out);
   void giveBack(const vehicle::Now& now, Respond respond, BlueyeOutput& out);
   void finishReleasing(const vehicle::Now& now, const Answer& answer);
 
-  /// `in_order` with the replies: not on the telemetry connection.
-  void hear(const vehicle::Now& now, std::string_view type, std::string_view payload, bool in_order,
-            BlueyeOutput& out);
-  void hearClients(const vehicle::Now& now, std::string_view payload, bool in_order,
+  /// `asked` is empty on the telemetry connection.
+  void hear(const vehicle::Now& now, std::string_view type, std::string_view payload,
+            std::optional<Asked> asked, BlueyeOutput& out);
+  void hearClients(const vehicle::Now& now, std::string_view payload, std::optional<Asked> asked,
                    BlueyeOutput& out);
   void hearMission(const vehicle::Now& now, std::string_view payload);
   void hearClock(const vehicle::Now& now, std::string_view payload, BlueyeOutput& out);
   template <class Message>
-  void learnClients(const vehicle::Now& now, const Message& message, BlueyeOutput& out);
+  void learnClients(const vehicle::Now& now, const Message& message, Asked asked,
+                    BlueyeOutput& out);
   void setIdInControl(const vehicle::Now& now, std::uint32_t id, BlueyeOutput& out);
   void gainControl(const vehicle::Now& now, BlueyeOutput& out);
   void loseRegistration(const vehicle::Now& now);
@@ -236,6 +241,8 @@ class BlueyeSession {
   std::uint32_t id_in_control_ = 0;
   std::vector<BlueyeClient> clients_;
   SteadyTime ask_clients_due_ = SteadyTime::max();
+  Asked told_ = 0;                     ///< ConnectedClientsTel heard
+  std::uint32_t told_in_control_ = 0;  ///< by the last of them
   SteadyTime registered_since_{};
   SteadyTime permitted_since_{};  ///< or stopped: a command must not be older
   bool permitted_ = false;

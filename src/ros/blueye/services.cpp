@@ -170,7 +170,8 @@ void Services::addAuthority() {
       topics::kStop,
       [this](auto&) {
         return ask([this](const auto& now, auto& out, const Respond& respond) {
-          respond({true, session_.stop(now, out), {}, {}});
+          const auto done = session_.stop(now, out);
+          respond({done.success, done.message, {}, {}});
         });
       },
       true);

@@ -234,6 +234,54 @@ TEST(BlueyeSession, SendsZeroAtOnceHoweverSoonItComes) {
   EXPECT_TRUE(drone.isAtRest());
 }
 
+// Zero does not wait, so what follows it has to.
+TEST(BlueyeSession, SendsNoMoreThanThirtyASecondToAndFroEither) {
+  for (const auto period : {1ms, 10ms, 20ms, 40ms}) {
+    ScriptedDrone drone;
+    drone.giveControl();
+    drone.run(5s);
+    drone.controls.clear();
+    for (auto passed = 0ms; passed < 3s; passed += 2 * period) {
+      drone.command(forward());
+      drone.run(period);
+      const bool moved = !drone.isAtRest();
+      drone.command(vehicle::MotionCommand{});
+      EXPECT_TRUE(drone.isAtRest()) << moved;
+      drone.run(period);
+    }
+    EXPECT_LE(drone.controlsOf("MotionInputCtrl").size(), 92u) << period.count();
+    EXPECT_GE(drone.controlsOf("MotionInputCtrl").size(), 70u) << period.count();
+  }
+}
+
+TEST(BlueyeSession, StopsThatComeByTheHundredDoNotFloodTheDrone) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.controls.clear();
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_TRUE(drone.session.stop(drone.now, drone).success);
+    EXPECT_TRUE(drone.isAtRest());
+    drone.run(1ms);
+  }
+  EXPECT_LE(drone.controlsOf("MotionInputCtrl").size(), 31u);
+  EXPECT_LE(drone.controlsOf("GripperCtrl").size(), 31u);
+}
+
+TEST(BlueyeSession, SendsACommandOfZeroAgainThatTheLinkDidNotTake) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.command(forward());
+  drone.run(50ms);
+  drone.link_takes = false;
+  drone.command(vehicle::MotionCommand{});
+  EXPECT_FALSE(drone.isAtRest());
+  drone.link_takes = true;
+  drone.run(20ms);
+  EXPECT_TRUE(drone.isAtRest());
+}
+
 struct Axis {
   const char* name;
   double vehicle::MotionCommand::*command;
@@ -355,6 +403,20 @@ TEST(BlueyeSession, ReleasingUnderAStreamOfCommandsLeavesTheDroneAtRest) {
   EXPECT_TRUE(drone.registry.back().observer);
 }
 
+TEST(BlueyeSession, FallsSilentWhenTheGoodbyeOfAReleaseIsNotAnswered) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  drone.hold();
+  drone.session.releaseControl(
+      drone.now, [](const auto&) {}, drone);
+  drone.run(2100ms);
+  ASSERT_TRUE(drone.registry.back().observer);
+  drone.controls.clear();
+  drone.run(5s);
+  EXPECT_THAT(drone.controls, IsEmpty());  // the drone has the one before in control still
+}
+
 TEST(BlueyeSession, ALinkLostWhileControlIsReleasedIsAnsweredAndLeavesAnObserver) {
   ScriptedDrone drone;
   Answers answers;
@@ -408,11 +470,34 @@ TEST(BlueyeSession, ControlThatComesAfterTheCallerWasToldItDidNotIsGivenBack) {
     EXPECT_FALSE(drone.session.inControl()) << step;
     ASSERT_TRUE(drone.session.registered()) << step;
     EXPECT_TRUE(drone.registry.back().observer) << step;
+    if (step == 0) {
+      EXPECT_THAT(observersAsked(drone), ElementsAre(true, true));
+    }
     EXPECT_NE(drone.in_control, drone.session.id()) << step;
     EXPECT_THAT(drone.command(forward()), Not(IsEmpty())) << step;
     drone.controls.clear();
     drone.run(3s);
     EXPECT_THAT(drone.controls, IsEmpty()) << step;
+  }
+}
+
+TEST(BlueyeSession, TellsWhoeverAsksForControlInTimeAlsoWithoutAReply) {
+  for (const std::size_t step : {0, 1, 2}) {  // own goodbye, registration, the other's goodbye
+    ScriptedDrone drone;
+    Answers answers;
+    drone.addClient("Blueye App");
+    drone.connect();
+    drone.run(1s);
+    drone.hold(step);
+    const auto asked = drone.now.steady;
+    drone.session.takeControl(drone.now, answers.keep(), drone);
+    while (answers.all.empty() && drone.now.steady < asked + 5s) drone.run(1ms);
+    ASSERT_EQ(answers.all.size(), 1u) << step;
+    EXPECT_FALSE(answers.all[0].success) << step;
+    EXPECT_LE(drone.now.steady - asked, 1001ms) << step;  // control_timeout
+    drone.run(5s);
+    EXPECT_EQ(answers.all.size(), 1u) << step;
+    EXPECT_TRUE(drone.registry.back().observer) << step;
   }
 }
 
@@ -515,6 +600,89 @@ TEST(BlueyeSession, AsksWhoIsInControlUntilItIsTold) {
   EXPECT_TRUE(drone.session.inControl());
 }
 
+// Another client takes control while the reply that tells of ours is on its way.
+TEST(BlueyeSession, AReplyThatIsOlderThanTheLossOfControlDoesNotBringItBack) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  const auto rightful = drone.replyAboutClients();
+  drone.in_control = drone.addClient("Blueye App");
+  drone.hold();
+  drone.tellClients();
+  drone.run(10ms);
+  drone.tellClients();
+  drone.controls.clear();
+  drone.echoes = true;
+  drone.echo = rightful;
+  drone.letGo();
+  drone.run(1ms);
+  drone.echoes = false;
+  EXPECT_FALSE(drone.session.inControl());
+  drone.run(3s);
+  EXPECT_FALSE(drone.session.inControl());
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, ARegistrationThatIsOlderThanTheLossOfControlDoesNotBringIt) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.run(2s);
+  drone.hold(1);  // goodbye is answered, the registration late
+  drone.session.takeControl(
+      drone.now, [](const auto&) {}, drone);
+  drone.run(10ms);
+  const auto app = drone.addClient("Blueye App");
+  drone.tellClients();
+  ASSERT_EQ(drone.in_control, app);
+  pb::ConnectClientRep registered;
+  registered.set_client_id(app + 1);
+  registered.set_client_id_in_control(app + 1);
+  registered.add_connected_clients()->set_client_id(app + 1);
+  drone.echoes = true;
+  drone.echo = {registered.GetTypeName(), registered.SerializeAsString()};
+  drone.letGo();
+  drone.run(1ms);
+  drone.echoes = false;
+  EXPECT_EQ(drone.session.id(), app + 1);
+  EXPECT_FALSE(drone.session.inControl());
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, TelemetryAloneGivesNoControl) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  const auto app = drone.addClient("Blueye App");
+  drone.in_control = app;
+  drone.tellClients();
+  EXPECT_FALSE(drone.session.inControl());
+  drone.removeClient(app);  // this client is next in line
+  drone.controls.clear();
+  drone.hold();
+  drone.tellClients();
+  drone.run(100ms);
+  EXPECT_FALSE(drone.session.inControl());
+  EXPECT_THAT(drone.controls, IsEmpty());
+  drone.letGo();
+  drone.run(10ms);
+  EXPECT_TRUE(drone.session.inControl());
+  EXPECT_TRUE(drone.isAtRest());
+}
+
+TEST(BlueyeSession, SendsZeroAgainHoweverSoonControlComesBack) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.session.stop(drone.now, drone);
+  const auto us = std::exchange(drone.in_control, drone.addClient("Blueye App"));
+  drone.tellClients();
+  drone.controls.clear();
+  drone.in_control = us;  // who may have moved it meanwhile
+  drone.tellClients();
+  drone.run(5ms);
+  ASSERT_TRUE(drone.session.inControl());
+  EXPECT_EQ(drone.controlsOf("MotionInputCtrl").size(), 1u);
+}
+
 TEST(BlueyeSession, ForgetsEverythingWithTheConnection) {
   ScriptedDrone drone;
   drone.giveControl();
@@ -548,7 +716,9 @@ TEST(BlueyeSession, StopSendsZerosAtOnceAndPausesTheMission) {
   drone.tell(missionIn(pb::MISSION_STATE_RUNNING));
   drone.command(forward());
   drone.controls.clear();
-  EXPECT_THAT(drone.session.stop(drone.now, drone), HasSubstr("paused"));
+  const auto stopped = drone.session.stop(drone.now, drone);
+  EXPECT_TRUE(stopped.success);
+  EXPECT_THAT(stopped.message, HasSubstr("paused"));
   EXPECT_TRUE(drone.isAtRest());
   EXPECT_EQ(drone.controlsOf("MotionInputCtrl").size(), 1u);
   EXPECT_EQ(drone.controlsOf("TiltVelocityCtrl").size(), 1u);
@@ -580,6 +750,37 @@ TEST(BlueyeSession, AbortThatSendsNothingIsNoSuccess) {
   drone.link_takes = true;
   drone.run(25ms);
   EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 1u);
+}
+
+TEST(BlueyeSession, StopThatSendsNothingIsNoSuccess) {
+  ScriptedDrone drone;
+  drone.connect();
+  auto answer = drone.session.stop(drone.now, drone);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("nothing was sent"));
+  drone.giveControl();
+  drone.run(1s);
+  drone.link_takes = false;
+  answer = drone.session.stop(drone.now, drone);
+  EXPECT_FALSE(answer.success);
+  EXPECT_THAT(answer.message, HasSubstr("sent again"));
+  EXPECT_FALSE(drone.session.abort(drone.now, drone).success);
+  drone.link_takes = true;
+  EXPECT_TRUE(drone.session.stop(drone.now, drone).success);
+}
+
+TEST(BlueyeSession, StopGoesOnPausingWhenSomebodyAsksForAPauseAfterIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.session.stop(drone.now, drone);
+  ConfirmedControls::Control pause;  // sent once, as service mission/pause does
+  pause.type = "blueye.protocol.PauseMissionCtrl";
+  pause.confirmed_by = "blueye.protocol.MissionStatusTel";
+  pause.shows = [](std::string_view) { return false; };
+  drone.session.control(drone.now, std::move(pause), drone);
+  drone.controls.clear();
+  drone.run(1100ms);
+  EXPECT_EQ(drone.controlsOf("PauseMissionCtrl").size(), 2u);
 }
 
 TEST(BlueyeSession, AMissionThatIsLoadedAnewIsNotClearedByTheAbortBeforeIt) {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "blueye/control.pb.h"
@@ -127,6 +128,14 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   void letGo() { held_request = 0; }
 
   void tellClients() { tell(fill(pb::ConnectedClientsTel{})); }
+
+  /// The answer to the question who is connected, as it would be now.
+  std::pair<std::string, std::string> replyAboutClients() const {
+    pb::GetTelemetryRep rep;
+    rep.mutable_payload()->set_type_url("type.googleapis.com/blueye.protocol.ConnectedClientsTel");
+    rep.mutable_payload()->set_value(fill(pb::ConnectedClientsTel{}).SerializeAsString());
+    return {rep.GetTypeName(), rep.SerializeAsString()};
+  }
 
   template <class Message>
   void tell(const Message& message) {
@@ -267,13 +276,9 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
     if (request.type == "GetTelemetryReq") {
       pb::GetTelemetryReq asked;
       asked.ParseFromString(request.payload);
-      pb::GetTelemetryRep rep;
-      if (asked.message_type() == "ConnectedClientsTel") {
-        rep.mutable_payload()->set_type_url(
-            "type.googleapis.com/blueye.protocol.ConnectedClientsTel");
-        rep.mutable_payload()->set_value(fill(pb::ConnectedClientsTel{}).SerializeAsString());
-      }
-      return reply(rep);
+      if (asked.message_type() != "ConnectedClientsTel") return reply(pb::GetTelemetryRep{});
+      const auto told = replyAboutClients();
+      return session.reply(now, told.first, told.second, *this);
     }
     session.reply(now, "google.protobuf.Empty", {}, *this);
   }
