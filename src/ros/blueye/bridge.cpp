@@ -15,13 +15,12 @@ namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
-using diagnostic_msgs::DiagnosticStatus;
 using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr std::uint32_t kQueue = 10;
 constexpr std::uint32_t kReplayQueue = 2000;
 constexpr bool kLatched = true;
-constexpr double kLowBattery = 0.2;
+constexpr std::chrono::seconds kLately{5};
 
 /// Nothing is ever sent while a record is played; the session knows, this makes sure.
 class Mute : public session::BlueyeOutput {
@@ -62,10 +61,11 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
       control_(node.advertise<ControlStatus>(topics::kControl, kQueue, kLatched)),
       clients_(node.advertise<BlueyeClients>(topics::kClients, kQueue, kLatched)),
       mission_(node.advertise<MissionStatus>(topics::kMissionStatus, kQueue, kLatched)),
-      endpoint_(parameters.link.host + ":" + std::to_string(parameters.link.telemetry_port)) {
-  addDiagnostics(node, private_node);
+      endpoint_(parameters.source == Source::Topic
+                    ? node.resolveName(topics::kTelemetryReplay)
+                    : parameters.link.host + ":" + std::to_string(parameters.link.telemetry_port)),
+      configured_endpoint_(endpoint_) {
   if (parameters.source == Source::Topic) {
-    endpoint_ = node.resolveName(topics::kTelemetryReplay);
     onConnected(clocks_.read(), endpoint_);
     session_.connected(clocks_.read(), mute);
     replay_ = node.subscribe(topics::kTelemetryReplay, kReplayQueue, &Bridge::replay, this);
@@ -78,6 +78,7 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
   input_ = std::make_unique<Input>(node, name_, parameters, session_, catalogue_, post_task);
   services_ =
       std::make_unique<Services>(node, parameters, session_, publisher_, catalogue_, post_task);
+  addDiagnostics(node, private_node);
   if (!driver_) return;
   // The publisher's own topic once more, to see who listens.
   const auto record = node.advertise<BlueyeMessage>(topics::kTelemetry, kReplayQueue);
@@ -87,6 +88,7 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
 
 // Tasks refer to the input and the services, so these stay until no task can run any more.
 Bridge::~Bridge() {
+  diagnostics_timer_.stop();
   if (expected_) expected_->close();
   services_->close();
   input_->close();
@@ -161,7 +163,7 @@ void Bridge::onRequestSent(const vehicle::Now&, std::string_view type, std::stri
 
 void Bridge::onTick(const vehicle::Now& now) {
   publishLink(now);
-  takeHealth();
+  takeHealth(now);
 }
 
 // --- What the session tells ---
@@ -180,6 +182,7 @@ void Bridge::event(const vehicle::Now& now, const vehicle::Event& event) {
     out.commands_enabled = control->commands_enabled;
     out.commanding = control->commanding;
     out.reason = std::string{control->reason};
+    commanding_ = control->commanding;
     control_.publish(out);
   } else if (const auto* mission = std::get_if<vehicle::MissionStatus>(&event)) {
     MissionStatus out;
@@ -230,15 +233,38 @@ void Bridge::publishLink(const vehicle::Now& now) {
 
 void Bridge::addDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node) {
   updater_ = std::make_unique<diagnostic_updater::Updater>(node, private_node, name_);
-  updater_->setHardwareID("blueye");
-  updater_->add("link", this, &Bridge::reportLink);
-  updater_->add("control", this, &Bridge::reportControl);
-  updater_->add("drone", this, &Bridge::reportDrone);
-  updater_->add("battery", this, &Bridge::reportBattery);
+  updater_->setHardwareID(endpoint_);
+  for (const auto& [name, report] : kReports) {
+    updater_->add(name, [this, report = report](DiagnosticStatusWrapper& status) {
+      report(told_health_, status);
+    });
+  }
+  diagnostics_timer_ = node.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updateDiagnostics(); });
 }
 
-void Bridge::takeHealth() {
+void Bridge::updateDiagnostics() {
+  if (parameters_.source == Source::Topic) {  // a record that stands still makes no ticks
+    const std::lock_guard<std::mutex> lock(replay_mutex_);
+    takeHealth(clocks_.read());
+  }
+  {
+    const std::lock_guard<std::mutex> lock(health_mutex_);
+    told_health_ = health_;
+  }
+  if (told_health_.endpoint.empty()) told_health_.endpoint = configured_endpoint_;
+  if (told_health_.taken_at) {
+    const auto age = std::chrono::steady_clock::now() - *told_health_.taken_at;
+    told_health_.unreported_s = std::chrono::duration<double>(age).count();
+  }
+  updater_->setHardwareID(told_health_.endpoint);
+  updater_->force_update();
+}
+
+void Bridge::takeHealth(const vehicle::Now& now) {
   Health health;
+  health.replay = parameters_.source == Source::Topic;
+  health.taken_at = now.steady;
   health.connected = connected_;
   health.endpoint = endpoint_;
   health.last_failure = last_failure_;
@@ -246,6 +272,7 @@ void Bridge::takeHealth() {
   health.unknown = unknown_;
   health.unreadable = unreadable_;
   health.refusal = session_.refusal();
+  health.commanding = commanding_;
   health.id = session_.id();
   health.id_in_control = session_.idInControl();
   health.error_flags = publisher_.errorFlags();
@@ -254,53 +281,13 @@ void Bridge::takeHealth() {
     health.battery_level = battery->level();
     health.battery_v = battery->voltage();
   }
+  if (health.counters.refused_commands >
+      std::exchange(refused_, health.counters.refused_commands)) {
+    refused_at_ = now.steady;
+  }
+  health.refused_lately = refused_at_ && now.steady - *refused_at_ < kLately;
   const std::lock_guard<std::mutex> lock(health_mutex_);
   health_ = std::move(health);
-}
-
-void Bridge::reportLink(DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(health_mutex_);
-  if (health_.connected) {
-    status.summary(DiagnosticStatus::OK, "connected to " + health_.endpoint);
-  } else {
-    status.summary(DiagnosticStatus::ERROR, "not connected: " + health_.last_failure);
-  }
-  status.add("telemetry messages", health_.counters.telemetry_received);
-  status.add("replies", health_.counters.replies_received);
-  status.add("malformed", health_.counters.malformed + health_.unreadable);
-  status.add("unknown messages", health_.unknown);
-}
-
-void Bridge::reportControl(DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(health_mutex_);
-  status.summary(DiagnosticStatus::OK,
-                 health_.refusal.empty() ? "this driver is in control" : health_.refusal);
-  status.add("own client", health_.id);
-  status.add("client in control", health_.id_in_control);
-  status.add("refused commands", health_.counters.refused_commands);
-}
-
-void Bridge::reportDrone(DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(health_mutex_);
-  status.summary(DiagnosticStatus::OK, "no error flags");
-  for (const std::string& flag : health_.error_flags) {
-    const bool grave = flag.rfind("depth", 0) == 0 || flag.rfind("inner_pressure", 0) == 0 ||
-                       flag.rfind("pmu_comm", 0) == 0;
-    status.mergeSummary(grave ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, flag);
-    status.add(flag, true);
-  }
-  for (const auto& [type, values] : health_.values) {
-    for (const auto& [path, value] : values) status.add(path, value);
-  }
-}
-
-void Bridge::reportBattery(DiagnosticStatusWrapper& status) {
-  const std::lock_guard<std::mutex> lock(health_mutex_);
-  if (!health_.battery_level) return status.summary(DiagnosticStatus::OK, "not told yet");
-  const bool low = *health_.battery_level < kLowBattery;
-  status.summaryf(low ? DiagnosticStatus::WARN : DiagnosticStatus::OK, "%.0f %%",
-                  *health_.battery_level * 100.0);
-  status.add("voltage", health_.battery_v);
 }
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer

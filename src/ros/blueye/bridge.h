@@ -5,13 +5,13 @@
 #include <ros/node_handle.h>
 #include <ros/subscriber.h>
 
-#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "blueye/health.h"
 #include "blueye/input.h"
 #include "blueye/parameters.h"
 #include "blueye/publisher.h"
@@ -54,12 +54,9 @@ class Bridge : private driver::BlueyeLinkListener, private session::BlueyeListen
   void post(Task task);
   void replay(const BlueyeMessage::ConstPtr& message);
   void publishLink(const vehicle::Now& now);
-  void takeHealth();
+  void takeHealth(const vehicle::Now& now);
   void addDiagnostics(ros::NodeHandle node, ros::NodeHandle private_node);
-  void reportLink(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void reportControl(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void reportDrone(diagnostic_updater::DiagnosticStatusWrapper& status);
-  void reportBattery(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void updateDiagnostics();
 
   const std::string name_;
   const Parameters parameters_;
@@ -75,7 +72,8 @@ class Bridge : private driver::BlueyeLinkListener, private session::BlueyeListen
   bool connected_ = false;
   bool failure_logged_ = false;  ///< since the last connection
   std::string endpoint_;
-  std::string last_failure_ = "not tried yet";
+  const std::string configured_endpoint_;  ///< before the driver has told any
+  std::string last_failure_;
   std::uint32_t connects_ = 0;
   std::uint64_t sent_ = 0;
   std::uint64_t sent_bytes_ = 0;
@@ -83,26 +81,16 @@ class Bridge : private driver::BlueyeLinkListener, private session::BlueyeListen
   std::uint64_t unreadable_ = 0;
   std::optional<vehicle::SteadyTime> heard_;
 
-  /// What diagnostics tell, taken once a second: they are asked for on another thread.
-  struct Health {
-    bool connected = false;
-    std::string endpoint;
-    std::string last_failure;
-    session::BlueyeCounters counters;
-    std::uint64_t unknown = 0;
-    std::uint64_t unreadable = 0;
-    std::string refusal;
-    std::uint32_t id = 0;
-    std::uint32_t id_in_control = 0;
-    std::vector<std::string> error_flags;
-    std::map<std::string, Publisher::Values> values;
-    std::optional<double> battery_level;
-    double battery_v = 0.0;
-  };
+  bool commanding_ = false;
+  std::uint64_t refused_ = 0;
+  std::optional<vehicle::SteadyTime> refused_at_;
+
   std::mutex health_mutex_;
   Health health_;
+  Health told_health_;  ///< the timer's own
   vehicle::SteadyTime next_health_{};
   std::unique_ptr<diagnostic_updater::Updater> updater_;
+  ros::WallTimer diagnostics_timer_;
   std::mutex replay_mutex_;
   ros::Subscriber replay_;
   std::unique_ptr<driver::BlueyeDriver> driver_;  ///< empty while a record is played

@@ -8,6 +8,7 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from frontseat_driver.msg import BlueyeMessage, ControlStatus, Gripper, LinkStatus
 from frontseat_driver.srv import BlueyeControl, BlueyeRequest, LoadMission
 from geometry_msgs.msg import Twist
@@ -43,6 +44,7 @@ class Pair:
                                                     silence_timeout=60))
         self.control = Collector(self.name + "/control", ControlStatus)
         self.sent = Collector(self.name + "/blueye/control_out", BlueyeMessage)
+        self.diagnostics = Collector("/diagnostics", DiagnosticArray)
         self.odom = Collector(self.name + "/odom", Odometry)
         self.truth = Collector(drone + "/odom", Odometry)
         self.driver = Process([program(PACKAGE, "blueye_node"), "__name:=driver",
@@ -56,6 +58,17 @@ class Pair:
 
     def grant(self):
         return self.control.received[-1][1].grant if self.control.received else None
+
+    def diagnosis(self, layer):
+        """The newest status of a layer, None before the first."""
+        name = "%s/driver: %s" % (self.name, layer)
+        found = [status for message in self.diagnostics.messages for status in message.status
+                 if status.name in (name, name[1:])]
+        return found[-1] if found else None
+
+    def diagnosed(self, layer, text):
+        return wait_until(lambda: self.diagnosis(layer) and text in self.diagnosis(layer).message
+                          and self.diagnosis(layer), "%s: %s" % (layer, text))
 
     def speed(self):
         linear = self.truth.received[-1][1].twist.twist.linear
@@ -108,6 +121,31 @@ class BlueyeLive(unittest.TestCase):
                       json='{"lights": {"value": 0.5}}')
         self.assertFalse(answer.success)
         self.assertIn("not in control", answer.message)
+
+    def test_diagnostics_are_green_until_the_drone_is_gone(self):
+        pair = self.pair("health")
+        for layer, text in (("link", "connected to 127.0.0.1:"),
+                            ("control", "service take_control takes it"),
+                            ("commands", "nothing is commanded"),
+                            ("drone", "no error flags"), ("battery", "%")):
+            status = pair.diagnosed(layer, text)
+            self.assertEqual(DiagnosticStatus.OK, status.level, status)
+            self.assertIn("127.0.0.1:", status.hardware_id)
+        command = Twist()
+        command.linear.x = 0.5
+
+        def refused():
+            pair.velocity.publish(command)
+            return "are refused" in pair.diagnosis("commands").message
+
+        wait_until(refused, "a refusal")
+        self.assertEqual(DiagnosticStatus.WARN, pair.diagnosed("commands", "take_control").level)
+        pair.take_control()
+        pair.diagnosed("control", "this driver is in control")
+        pair.drive(lambda: "commanding" in pair.diagnosis("commands").message)
+        pair.drone.stop()
+        self.assertEqual(DiagnosticStatus.ERROR, pair.diagnosed("link", "is the drone on").level)
+        self.assertEqual(DiagnosticStatus.OK, pair.diagnosed("battery", "last heard").level)
 
     def test_drives_stops_and_answers(self):
         pair = self.pair("drive")
