@@ -46,7 +46,8 @@ class AccelerometerSense {
   /// A reading in g. Counts only while roll and pitch are known and small and it is about 1 g.
   void take(double z_g, double norm_g, const std::optional<double>& tilt_rad) {
     const bool level = tilt_rad && std::abs(*tilt_rad) < kLevel_rad;
-    if (!level || std::abs(norm_g - 1.0) > kDisturbance_g) return;
+    // Written so that a reading that is no number returns as well: the mean would stay none.
+    if (!level || !(std::abs(norm_g - 1.0) <= kDisturbance_g)) return;
     mean_g_ += (z_g - mean_g_) / kMemory;
     if (samples_ < kEnough) ++samples_;
   }
@@ -78,7 +79,9 @@ class DvlSense {
   bool disagrees(double dvl_m_s, double estimate_m_s) {
     constexpr double kWorthIt_m_s = 0.1;
     constexpr int kSure = 100;
-    if (std::abs(dvl_m_s) < kWorthIt_m_s || std::abs(estimate_m_s) < kWorthIt_m_s) return false;
+    // NaN is not worth it either.
+    if (!(std::abs(dvl_m_s) >= kWorthIt_m_s && std::abs(estimate_m_s) >= kWorthIt_m_s))
+      return false;
     const bool opposite = (dvl_m_s < 0.0) != (estimate_m_s < 0.0);
     count_ = opposite ? count_ + 1 : 0;
     return count_ == kSure;

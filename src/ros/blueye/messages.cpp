@@ -164,6 +164,8 @@ std::string printable(const std::string& bytes) {
   return hex;
 }
 
+bool isPositive(double value) { return std::isfinite(value) && value > 0.0; }
+
 bool isUsable(const pb::LatLongPosition& position) {
   return ros_layer::isUsable({position.latitude(), position.longitude()});
 }
@@ -257,7 +259,7 @@ std::optional<BlueyePositionEstimate> toEstimate(const pb::PositionEstimateTel& 
   out.speed_over_ground = in.speed_over_ground();
   out.course_over_ground = yawOf(radiansOf(in.course_over_ground()));
   out.since_reset = ros::Duration(in.time_since_reset_sec(), 0);
-  out.accuracy = in.accuracy() > 0.0F ? in.accuracy() : kNan;
+  out.accuracy = isPositive(in.accuracy()) ? in.accuracy() : kNan;
   setPosition(out.latitude, out.longitude, in.has_global_position(), in.global_position());
   for (const pb::NavigationSensorStatus& sensor : in.navigation_sensors()) {
     BlueyeNavigationSensor& one = out.sensors.emplace_back();
@@ -284,7 +286,7 @@ std::optional<sensor_msgs::NavSatFix> toNavFix(const pb::PositionEstimateTel& to
                                    context.base_frame, context);
   if (out.status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX) return out;
   const double horizontal =
-      in.accuracy() > 0.0F ? variance(in.accuracy() / kRadius95) : kUnknownVariance;
+      isPositive(in.accuracy()) ? variance(in.accuracy() / kRadius95) : kUnknownVariance;
   setVariances(
       out.position_covariance, 0,
       {horizontal, horizontal, depth_m ? variance(context.deviations.depth_m) : kUnknownVariance});
@@ -301,7 +303,7 @@ std::optional<geometry_msgs::TwistWithCovarianceStamped> toDvlTwist(const pb::Dv
   out.twist.twist.linear = *velocity;
   const double fom_m_s = told.dvl_velocity().fom();
   const double known =
-      fom_m_s > 0.0 ? variance(fom_m_s) : variance(context.deviations.velocity_m_s);
+      isPositive(fom_m_s) ? variance(fom_m_s) : variance(context.deviations.velocity_m_s);
   setVariances(out.twist.covariance, 0, allAxes(known));
   setVariances(out.twist.covariance, 3, allAxes(kUnknownVariance));
   return out;

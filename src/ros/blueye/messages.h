@@ -75,6 +75,9 @@ std::string printable(const std::string& bytes);
 /// Roll, pitch and heading, degrees.
 geometry_msgs::Quaternion orientationOf(const pb::Attitude& attitude, const Conventions& how);
 
+/// A number that tells something: not 0, which the wire leaves out, nor NaN or infinite.
+bool isPositive(double value);
+
 bool isUsable(const pb::LatLongPosition& position);
 
 /// The velocity of a DVL in FLU; empty without a valid beam.

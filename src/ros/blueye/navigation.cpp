@@ -12,6 +12,10 @@ namespace {
 constexpr double kRadius95 = 2.4477;  // sqrt(-2 ln 0.05): 95 percent of two axes, in sigma
 // The rounding of positions and a little jitter of arrival.
 constexpr double kStepMargin_m = 1.0;
+// Depths have the time of their arrival alone: over less, its jitter would be most of the speed.
+constexpr std::chrono::milliseconds kSpeedOver{50};
+// Closer together than any rate of the drone: sent one after the other, delivered at once.
+constexpr std::chrono::milliseconds kBurst{5};
 
 double seconds(std::chrono::nanoseconds duration) {
   return std::chrono::duration<double>(duration).count();
@@ -43,6 +47,7 @@ Context Navigation::context(const ros::Time& stamp) const {
 void Navigation::forget() {
   attitude_.reset();
   depth_.reset();
+  last_depth_.reset();
   sinking_m_s_.reset();
   imu_.reset();
   dvl_.reset();
@@ -58,12 +63,19 @@ void Navigation::take(const pb::AttitudeTel& told, const vehicle::Now& now) {
 
 void Navigation::take(const pb::DepthTel& told, const vehicle::Now& now) {
   if (!told.has_depth() || !std::isfinite(told.depth().value())) return;
-  sinking_m_s_.reset();
-  if (fresh(depth_, now) != nullptr && now.steady > depth_->at) {
-    const double change_m = told.depth().value() - depth_->message.depth().value();
-    sinking_m_s_ = change_m / seconds(now.steady - depth_->at);
-  }
   depth_ = {told, now.steady};
+  if (fresh(last_depth_, now) == nullptr) {
+    sinking_m_s_.reset();
+    last_depth_ = depth_;
+    return;
+  }
+  const auto apart = now.steady - last_depth_->at;
+  if (apart >= kSpeedOver) {
+    const double change_m = told.depth().value() - last_depth_->message.depth().value();
+    sinking_m_s_ = change_m / seconds(apart);
+  }
+  // Of a burst the last is nearest to the time of its arrival.
+  if (apart >= kSpeedOver || apart < kBurst) last_depth_ = depth_;
 }
 
 void Navigation::take(const pb::CalibratedImuTel& told, const vehicle::Now& now) {
@@ -93,13 +105,16 @@ void Navigation::take(const pb::DvlVelocityTel& told, const vehicle::Now& now) {
 
 bool Navigation::dvlDisagrees() { return std::exchange(dvl_disagrees_, false); }
 
-void Navigation::take(const pb::PositionEstimateTel& told, const vehicle::Now& now) {
-  if (!told.has_position_estimate() || !isFinite(told.position_estimate())) return;
-  estimate_ = {told, now.steady};
+bool Navigation::take(const pb::PositionEstimateTel& told, const vehicle::Now& now) {
+  if (!told.has_position_estimate()) return false;
   const pb::PositionEstimate& estimate = told.position_estimate();
-  if (!estimate.is_valid()) return;
+  // Without is_valid no number counts, so none spoils it.
+  if (estimate.is_valid() && !isFinite(estimate)) return false;
+  estimate_ = {told, now.steady};
+  if (!estimate.is_valid()) return true;
   followReset(estimate, now);
   followMap(estimate);
+  return true;
 }
 
 void Navigation::followReset(const pb::PositionEstimate& estimate, const vehicle::Now& now) {
@@ -172,7 +187,7 @@ void Navigation::fillPose(nav_msgs::Odometry& out, const vehicle::Now& now) cons
   if (estimate.is_valid()) {
     out.pose.pose.position.x = estimate.easting() + offset_.x;
     out.pose.pose.position.y = estimate.northing() + offset_.y;
-    if (estimate.accuracy() > 0.0F) horizontal = variance(estimate.accuracy() / kRadius95);
+    if (isPositive(estimate.accuracy())) horizontal = variance(estimate.accuracy() / kRadius95);
   }
   const auto depth = depth_m(now);
   out.pose.pose.position.z = 0.0 - depth.value_or(0.0);
@@ -203,23 +218,27 @@ void Navigation::fillTwist(nav_msgs::Odometry& out, const vehicle::Now& now) con
   const double rate = variance(options_.deviations.angular_rate_rad_s);
   const auto up = up_m_s(now);
   twist.linear.z = up.value_or(0.0);
-  const bool valid = estimate.is_valid();
-  if (valid) {
-    twist.linear.x = estimate.surge_rate();
-    twist.linear.y = 0.0 - estimate.sway_rate();
-    twist.angular.z = 0.0 - estimate.yaw_rate();
-  }
-  const double horizontal = valid ? speed : kUnknownVariance;
-  setVariances(out.twist.covariance, 0, {horizontal, horizontal, up ? speed : kUnknownVariance});
+  // What is not valid, or no number, is unknown.
+  const auto known = [&estimate](float value) {
+    return estimate.is_valid() && std::isfinite(value) ? std::optional<double>{value}
+                                                       : std::nullopt;
+  };
+  const auto surge = known(estimate.surge_rate());
+  const auto sway = known(estimate.sway_rate());
+  const auto yaw = known(estimate.yaw_rate());
+  twist.linear.x = surge.value_or(0.0);
+  twist.linear.y = 0.0 - sway.value_or(0.0);
+  setVariances(out.twist.covariance, 0,
+               {surge ? speed : kUnknownVariance, sway ? speed : kUnknownVariance,
+                up ? speed : kUnknownVariance});
   sensor_msgs::Imu turning;
   turning.angular_velocity_covariance[0] = kNotMeasured;
   if (const auto* imu = fresh(imu_, now)) fill(turning, imu->imu(), {}, context({}));
   const bool has_gyro = turning.angular_velocity_covariance[0] >= 0.0;
-  twist.angular.x = turning.angular_velocity.x;
-  twist.angular.y = turning.angular_velocity.y;
-  if (!valid) twist.angular.z = turning.angular_velocity.z;
+  twist.angular = turning.angular_velocity;
+  if (yaw) twist.angular.z = 0.0 - *yaw;
   const double gyro = has_gyro ? rate : kUnknownVariance;
-  setVariances(out.twist.covariance, 3, {gyro, gyro, valid ? rate : gyro});
+  setVariances(out.twist.covariance, 3, {gyro, gyro, yaw ? rate : gyro});
 }
 
 std::optional<double> Navigation::up_m_s(const vehicle::Now& now) const {

@@ -38,7 +38,8 @@ class Navigation {
   void take(const pb::DepthTel& told, const vehicle::Now& now);
   void take(const pb::CalibratedImuTel& told, const vehicle::Now& now);
   void take(const pb::DvlVelocityTel& told, const vehicle::Now& now);
-  void take(const pb::PositionEstimateTel& told, const vehicle::Now& now);
+  /// False if the message says nothing; then there is no new odometry().
+  bool take(const pb::PositionEstimateTel& told, const vehicle::Now& now);
 
   /// The link was lost: nothing is fresh any more.
   void forget();
@@ -92,13 +93,14 @@ class Navigation {
   void fillTwist(nav_msgs::Odometry& out, const vehicle::Now& now) const;
   std::optional<double> up_m_s(const vehicle::Now& now) const;
 
-  const NavigationOptions options_;
+  NavigationOptions options_;
   AccelerometerSense accelerometer_;
   DvlSense dvl_sense_;
   bool dvl_disagrees_ = false;
 
   std::optional<Latest<pb::AttitudeTel>> attitude_;
   std::optional<Latest<pb::DepthTel>> depth_;
+  std::optional<Latest<pb::DepthTel>> last_depth_;  ///< what the vertical speed is counted from
   std::optional<double> sinking_m_s_;
   std::optional<Latest<pb::CalibratedImuTel>> imu_;
   std::optional<Latest<pb::DvlVelocityTel>> dvl_;

@@ -187,8 +187,7 @@ void Publisher::addNavigation() {
   const ros::Publisher fix = advertise<sensor_msgs::NavSatFix>(topics::kNavFix);
   on<pb::PositionEstimateTel>(
       [this, fix](const vehicle::Now& now, const pb::PositionEstimateTel& told) {
-        navigation_.take(told, now);
-        publishOdometry(now);
+        if (navigation_.take(told, now)) publishOdometry(now);
         if (!wanted(fix)) return;
         auto message = toNavFix(told, navigation_.depth_m(now), context(now));
         if (message) send(fix, *std::move(message));

@@ -133,6 +133,19 @@ TEST_F(Frames, TheAccelerometersSignIsToldByADroneThatLiesLevel) {
   EXPECT_EQ(AccelerometerSense(AccelerometerSign::Gravity).factor(), -1.0);
 }
 
+TEST_F(Frames, AReadingThatIsNoNumberDoesNotSpoilTheAccelerometersSign) {
+  AccelerometerSense sense(AccelerometerSign::Auto);
+  for (int i = 0; i < 5; ++i) sense.take(1.0, 1.0, 0.05);
+  sense.take(NAN, NAN, 0.05);
+  sense.take(1.0, 1.0, NAN);
+  for (int i = 0; i < 5; ++i) sense.take(1.0, 1.0, 0.05);
+  EXPECT_EQ(sense.factor(), -1.0);
+  AccelerometerSense other(AccelerometerSign::Auto);
+  other.take(NAN, NAN, 0.05);
+  for (int i = 0; i < 20; ++i) other.take(-1.0, 1.0, 0.05);
+  EXPECT_EQ(other.factor(), 1.0);
+}
+
 pb::DvlVelocityTel dvl(double x, double y, double z) {
   pb::DvlVelocityTel told;
   auto& in = *told.mutable_dvl_velocity();
@@ -199,6 +212,23 @@ TEST_F(Frames, ADvlThatKeepsDisagreeingIsReportedOnce) {
   EXPECT_EQ(reports, 1);
   DvlSense other;
   for (int i = 0; i < 300; ++i) EXPECT_FALSE(other.disagrees(0.3, i % 50 == 0 ? 0.3 : -0.3));
+  for (int i = 0; i < 300; ++i) EXPECT_FALSE(other.disagrees(-0.3, NAN));
+}
+
+TEST_F(Frames, AnAccuracyThatIsNoNumberIsUnknown) {
+  pb::PositionEstimateTel told;
+  auto& in = *told.mutable_position_estimate();
+  in.set_is_valid(true);
+  in.mutable_global_position()->set_latitude(63.4);
+  in.mutable_global_position()->set_longitude(10.4);
+  auto fast = dvl(1.0, 2.0, 3.0);
+  for (const float none : {HUGE_VALF, NAN, -1.0F, 0.0F}) {
+    in.set_accuracy(none);
+    EXPECT_TRUE(std::isnan(toEstimate(told, context())->accuracy)) << none;
+    EXPECT_EQ(toNavFix(told, 1.0, context())->position_covariance[0], 1e6) << none;
+    fast.mutable_dvl_velocity()->set_fom(none);
+    EXPECT_NEAR(toDvlTwist(fast, context())->twist.covariance[0], 0.01, kClose) << none;
+  }
 }
 
 TEST_F(Frames, TheEstimateIsInEastAndNorth) {

@@ -116,6 +116,89 @@ TEST_F(Together, VerticalSpeedComesFromDepthWhereThereIsNoDvl) {
   EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, kClose);
 }
 
+TEST_F(Together, VerticalSpeedIsNotMadeOfTheJitterOfArrival) {
+  at(0.0F, 0.0F, 1);
+  depth(1.0F);
+  now_.steady += 30us;
+  depth(1.005F);
+  EXPECT_EQ(odometry().twist.covariance[14], kUnknown);
+  EXPECT_EQ(odometry().twist.twist.linear.z, 0.0);
+  now_.steady += 100ms;
+  depth(1.055F);  // 0.05 m in 0.1 s
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, 1e-3);
+  now_.steady += 30us;
+  depth(1.06F);
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, 1e-3);
+  EXPECT_LT(odometry().twist.covariance[14], 1.0);
+  // Ten that were held up and come at once: the next counts from the last of them.
+  now_.steady += 1s;
+  for (int i = 1; i <= 10; ++i) {
+    now_.steady += 10us;
+    depth(1.06F + 0.05F * static_cast<float>(i));
+  }
+  now_.steady += 100ms;
+  depth(1.61F);
+  EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, 1e-3);
+}
+
+TEST_F(Together, VerticalSpeedOfAFastDepthIsCountedOverFiftyMilliseconds) {
+  at(0.0F, 0.0F, 1);
+  for (int i = 0; i <= 5; ++i) {
+    depth(1.0F + 0.01F * static_cast<float>(i));  // 1 m/s at 100 Hz
+    const auto out = odometry();
+    EXPECT_EQ(out.twist.covariance[14] < 1.0, i == 5) << i;
+    EXPECT_NEAR(out.twist.twist.linear.z, i == 5 ? -1.0 : 0.0, 1e-3) << i;
+    now_.steady += 10ms;
+  }
+}
+
+TEST_F(Together, AnEstimateThatSaysNothingGivesNothing) {
+  EXPECT_FALSE(navigation_.take(estimate_, now_));  // no sub-message
+  at(1.0F, 2.0F, 1);
+  EXPECT_TRUE(navigation_.take(estimate_, now_));
+  for (const auto set : {&pb::PositionEstimate::set_easting, &pb::PositionEstimate::set_northing,
+                         &pb::PositionEstimate::set_heading}) {
+    auto wrong = estimate_;
+    (wrong.mutable_position_estimate()->*set)(NAN);
+    EXPECT_FALSE(navigation_.take(wrong, now_));
+    // Without is_valid no number counts: depth and attitude are told as ever.
+    wrong.mutable_position_estimate()->set_is_valid(false);
+    EXPECT_TRUE(navigation_.take(wrong, now_));
+    const auto out = navigation_.odometry(now_, ros::Time(1)).value();
+    EXPECT_EQ(out.pose.pose.position.x, 0.0);
+    EXPECT_EQ(out.pose.covariance[0], kUnknown);
+    EXPECT_EQ(out.pose.pose.orientation.w, 1.0);
+    EXPECT_EQ(out.pose.covariance[35], kUnknown);
+  }
+}
+
+TEST_F(Together, RatesThatAreNoNumbersAreUnknown) {
+  at(1.0F, 2.0F, 1);
+  estimate().set_surge_rate(NAN);
+  estimate().set_sway_rate(0.25F);
+  estimate().set_yaw_rate(HUGE_VALF);
+  estimate().set_accuracy(HUGE_VALF);
+  auto out = odometry();
+  EXPECT_EQ(out.twist.twist.linear.x, 0.0);
+  EXPECT_EQ(out.twist.covariance[0], kUnknown);
+  EXPECT_NEAR(out.twist.twist.linear.y, -0.25, kClose);
+  EXPECT_LT(out.twist.covariance[7], 1.0);
+  EXPECT_EQ(out.twist.twist.angular.z, 0.0);
+  EXPECT_EQ(out.twist.covariance[35], kUnknown);
+  EXPECT_EQ(out.pose.covariance[0], kUnknown);
+  pb::CalibratedImuTel imu;
+  imu.mutable_imu()->mutable_gyroscope()->set_z(0.5);
+  navigation_.take(imu, now_);
+  estimate().set_surge_rate(0.5F);
+  estimate().set_sway_rate(-HUGE_VALF);
+  out = odometry();
+  EXPECT_NEAR(out.twist.twist.angular.z, -0.5, kClose);  // the gyro's
+  EXPECT_LT(out.twist.covariance[35], 1.0);
+  EXPECT_NEAR(out.twist.twist.linear.x, 0.5, kClose);
+  EXPECT_EQ(out.twist.twist.linear.y, 0.0);
+  EXPECT_EQ(out.twist.covariance[7], kUnknown);
+}
+
 TEST_F(Together, OdometryNeverJumpsWhenTheEstimateIsReset) {
   at(10.0F, 20.0F, 100);
   EXPECT_NEAR(odometry().pose.pose.position.x, 10.0, kClose);

@@ -37,12 +37,20 @@ ESTIMATE = inner(1, number(1, 3.0) + number(2, 4.0) + number(3, 1.5707964) +
                  number(4, 0.5) + field(9, 0, b"\x01"))    # northing, easting, heading, surge, valid
 
 
+NAN = float("nan")
+UNKNOWN = 1e6
+
+
 class Heard:
     """The messages of one topic."""
 
     def __init__(self, topic, kind):
         self.messages = []
         self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=100)
+
+    def since(self, stamp_s):
+        return [message for message in list(self.messages)
+                if message.header.stamp.to_sec() >= stamp_s]
 
 
 def until(claim):
@@ -64,30 +72,41 @@ class BlueyeReplay(unittest.TestCase):
         self.assertTrue(until(lambda: heard.subscriber.get_num_connections() > 0), topic)
         return heard
 
+    def warm_up(self, played, *heard):
+        """Plays until all have heard something: the driver's side of a connection is the later."""
+        def all_there():
+            for name, data in played:
+                self.play(name, data, 1)
+            return all(one.messages for one in heard)
+
+        self.assertTrue(until(all_there))
+
     def test_a_record_gives_what_the_dive_gave(self):
         raw = self.heard("blueye/telemetry", BlueyeMessage)
         depth = self.heard("depth", PoseWithCovarianceStamped)
         odom = self.heard("odom", Odometry)
         imu = self.heard("imu/data", Imu)
+        self.warm_up((("DepthTel", DEPTH), ("AttitudeTel", ATTITUDE),
+                      ("PositionEstimateTel", ESTIMATE)), raw, depth, odom, imu)
         self.play("DepthTel", DEPTH, 1000)
         self.play("AttitudeTel", ATTITUDE, 1001)
         self.play("PositionEstimateTel", ESTIMATE, 1002)
         self.play("TeleportTel", b"\x01\x02\x03", 1003)
-        self.assertTrue(until(lambda: len(raw.messages) >= 4))
+        self.assertTrue(until(lambda: len(raw.since(1000)) >= 4))
         self.assertEqual([PACKAGE + name for name in
                           ("DepthTel", "AttitudeTel", "PositionEstimateTel", "TeleportTel")],
-                         [message.type for message in raw.messages])
-        self.assertEqual(b"\x01\x02\x03", raw.messages[3].data)
-        self.assertTrue(until(lambda: depth.messages and odom.messages and imu.messages))
-        self.assertAlmostEqual(-10.0, depth.messages[0].pose.pose.position.z)
-        self.assertEqual(1000, depth.messages[0].header.stamp.to_sec())
-        pose = odom.messages[0].pose.pose
+                         [message.type for message in raw.since(1000)])
+        self.assertEqual(b"\x01\x02\x03", raw.since(1000)[3].data)
+        self.assertTrue(until(lambda: depth.since(1000) and odom.since(1000) and imu.since(1000)))
+        self.assertAlmostEqual(-10.0, depth.since(1000)[0].pose.pose.position.z)
+        self.assertEqual(1000, depth.since(1000)[0].header.stamp.to_sec())
+        pose = odom.since(1000)[0].pose.pose
         self.assertAlmostEqual(4.0, pose.position.x, 5)
         self.assertAlmostEqual(3.0, pose.position.y, 5)
         self.assertAlmostEqual(-10.0, pose.position.z, 5)
         self.assertAlmostEqual(1.0, abs(pose.orientation.w), 5)
-        self.assertAlmostEqual(0.5, odom.messages[0].twist.twist.linear.x, 5)
-        self.assertAlmostEqual(1.0, abs(imu.messages[0].orientation.w), 5)
+        self.assertAlmostEqual(0.5, odom.since(1000)[0].twist.twist.linear.x, 5)
+        self.assertAlmostEqual(1.0, abs(imu.since(1000)[0].orientation.w), 5)
 
     def test_nothing_is_sent_while_a_record_is_played(self):
         control = self.heard("control", ControlStatus)
@@ -111,13 +130,32 @@ class BlueyeReplay(unittest.TestCase):
         self.assertFalse(control.messages[-1].commanding)
         self.assertEqual([], sent.messages)
 
+    def test_an_estimate_that_is_no_number_gives_no_odometry(self):
+        odom = self.heard("odom", Odometry)
+        self.warm_up([("PositionEstimateTel", ESTIMATE)], odom)
+        self.play("PositionEstimateTel", ESTIMATE, 3000)
+        self.play("PositionEstimateTel", inner(1, number(1, NAN) + field(9, 0, b"\x01")), 3001)
+        self.play("PositionEstimateTel", b"", 3002)
+        self.play("PositionEstimateTel", inner(1, number(1, NAN)), 3003)  # not valid
+        self.play("PositionEstimateTel", ESTIMATE, 3004)
+
+        def stamps():
+            return [message.header.stamp.to_sec() for message in odom.since(3000)]
+
+        self.assertTrue(until(lambda: 3004 in stamps()))
+        self.assertEqual([3000, 3003, 3004], stamps())
+        unknown = odom.since(3000)[1]
+        self.assertEqual(0.0, unknown.pose.pose.position.x)
+        self.assertEqual(UNKNOWN, unknown.pose.covariance[0])
+
     def test_bad_bytes_cost_that_message_alone(self):
         depth = self.heard("depth", PoseWithCovarianceStamped)
         link = self.heard("link", LinkStatus)
+        self.warm_up([("DepthTel", DEPTH)], depth, link)
         self.play("DepthTel", b"\xff\xff", 2000)
         self.play("DepthTel", DEPTH, 2001)
-        self.assertTrue(until(lambda: depth.messages))
-        self.assertEqual(2001, depth.messages[0].header.stamp.to_sec())
+        self.assertTrue(until(lambda: depth.since(2000)))
+        self.assertEqual(2001, depth.since(2000)[0].header.stamp.to_sec())
         self.play("DepthTel", DEPTH, 2002)
 
         def counted():
