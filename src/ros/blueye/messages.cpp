@@ -444,6 +444,7 @@ std::optional<sensor_msgs::BatteryState> toSurfaceUnit(const pb::SurfaceUnitTel&
 
 std::optional<BlueyeControlMode> toControlMode(const pb::ControlModeTel& told,
                                                const Context& context) {
+  if (!told.has_state()) return std::nullopt;
   const pb::ControlMode& in = told.state();
   BlueyeControlMode out;
   out.header = context.header("");
@@ -662,26 +663,31 @@ std::optional<sensor_msgs::RelativeHumidity> toHumidity(const pb::CanisterBottom
 }
 
 std::optional<std_msgs::Float64> toLights(const pb::LightsTel& told, const Context&) {
+  if (!told.has_lights()) return std::nullopt;
   return number(told.lights().value());
 }
 
 std::optional<std_msgs::Float64> toGuestPortLights(const pb::GuestPortLightsTel& told,
                                                    const Context&) {
+  if (!told.has_lights()) return std::nullopt;
   return number(told.lights().value());
 }
 
 std::optional<std_msgs::Float64> toLaser(const pb::LaserTel& told, const Context&) {
+  if (!told.has_laser()) return std::nullopt;
   return number(told.laser().value());
 }
 
 // Up is a turn to the back about the axis to port: negative.
 std::optional<sensor_msgs::JointState> toCameraTilt(const pb::TiltAngleTel& told,
                                                     const Context& context) {
+  if (!told.has_angle()) return std::nullopt;
   return joint("camera_tilt", negated(radiansOf(told.angle().value())), context);
 }
 
 std::optional<sensor_msgs::JointState> toServo(const pb::GenericServoTel& told,
                                                const Context& context) {
+  if (!told.has_servo()) return std::nullopt;
   const Conventions& how = context.conventions;
   const double share = told.servo().value();
   const std::string name =
@@ -691,6 +697,7 @@ std::optional<sensor_msgs::JointState> toServo(const pb::GenericServoTel& told,
 
 std::optional<sensor_msgs::JointState> toMultibeamTilt(const pb::MultibeamServoTel& told,
                                                        const Context& context) {
+  if (!told.has_servo()) return std::nullopt;
   const double angle_rad = radiansOf(told.servo().angle());
   const bool up = context.conventions.multibeam_tilt_up;
   return joint("multibeam_tilt", up ? negated(angle_rad) : angle_rad, context);
@@ -698,6 +705,7 @@ std::optional<sensor_msgs::JointState> toMultibeamTilt(const pb::MultibeamServoT
 
 std::optional<std_msgs::Bool> toTiltStabilization(const pb::TiltStabilizationTel& told,
                                                   const Context&) {
+  if (!told.has_state()) return std::nullopt;
   std_msgs::Bool out;
   out.data = told.state().enabled();
   return out;
@@ -705,6 +713,7 @@ std::optional<std_msgs::Bool> toTiltStabilization(const pb::TiltStabilizationTel
 
 std::optional<BlueyeRecordState> toRecordState(const pb::RecordStateTel& told,
                                                const Context& context) {
+  if (!told.has_record_state()) return std::nullopt;
   const pb::RecordState& in = told.record_state();
   BlueyeRecordState out;
   out.header = context.header("");
@@ -727,6 +736,7 @@ std::optional<sensor_msgs::NavSatFix> toPilotFix(const pb::PilotGPSPositionTel& 
 
 std::optional<BlueyeCalibrationState> toCalibration(const pb::CalibrationStateTel& told,
                                                     const Context& context) {
+  if (!told.has_calibration_state()) return std::nullopt;
   const pb::CalibrationState& in = told.calibration_state();
   BlueyeCalibrationState out;
   out.header = context.header("");
@@ -743,6 +753,7 @@ std::optional<BlueyeCalibrationState> toCalibration(const pb::CalibrationStateTe
 }
 
 std::optional<std_msgs::Duration> toDiveTime(const pb::DiveTimeTel& told, const Context&) {
+  if (!told.has_dive_time()) return std::nullopt;
   std_msgs::Duration out;
   out.data = secondsOf(told.dive_time().value());
   return out;
@@ -753,9 +764,7 @@ std::optional<MultibeamPing> toPing(const pb::MultibeamPingTel& told, const Cont
   const pb::MultibeamPing& in = told.ping();
   MultibeamPing out;
   out.header = context.header("sonar_link");
-  if (in.has_frame_generation_timestamp()) {
-    out.header.stamp = timeOf(in.frame_generation_timestamp());
-  }
+  if (in.has_frame_generation_timestamp()) out.frame_time = timeOf(in.frame_generation_timestamp());
   out.range = in.range();
   out.gain = in.gain();
   out.frequency = in.frequency();

@@ -273,20 +273,21 @@ void Publisher::addVehicle() {
   const ros::Publisher details = advertise<BlueyeBatteryDetails>(topics::kBatteryDetails);
   on<pb::BatteryBQ40Z50Tel>(
       [this, battery, details](const vehicle::Now& now, const pb::BatteryBQ40Z50Tel& told) {
+        if (!told.has_battery() && !told.has_second_battery()) return;
         battery_details_at_ = now.steady;
         const auto tell = [&](const pb::BatteryBQ40Z50& one, int number) {
           if (wanted(details)) send(details, toBatteryDetails(one, number, context(now)));
           auto state = toBattery(one, number, context(now));
           if (state && wanted(battery)) send(battery, *std::move(state));
         };
-        tell(told.battery(), 0);
+        if (told.has_battery()) tell(told.battery(), 0);
         if (told.has_second_battery()) tell(told.second_battery(), 1);
       });
   on<pb::RecordStateTel>([this](const vehicle::Now&, const pb::RecordStateTel& told) {
-    record_state_ = told.record_state();
+    if (told.has_record_state()) record_state_ = told.record_state();
   });
   on<pb::ControlModeTel>([this](const vehicle::Now&, const pb::ControlModeTel& told) {
-    control_mode_ = told.state();
+    if (told.has_state()) control_mode_ = told.state();
   });
   advertise<BlueyeNotification>(topics::kNotifications);
   on<pb::NotificationTel>([this](const vehicle::Now& now, const pb::NotificationTel& told) {
@@ -294,6 +295,9 @@ void Publisher::addVehicle() {
   });
   // By the names of the fields, so that flags of later firmware show up as well.
   table_[nameOf("ErrorFlagsTel")].push_back([this](const vehicle::Now&, std::string_view payload) {
+    pb::ErrorFlagsTel told;
+    if (!parse(payload, told)) return false;
+    if (!told.has_error_flags()) return true;
     error_flags_.clear();
     constexpr std::size_t kPrefix = sizeof("error_flags.") - 1;
     for (const auto& [path, value] : catalogue_.values("ErrorFlagsTel", payload)) {

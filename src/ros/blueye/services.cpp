@@ -56,8 +56,9 @@ std::function<bool(std::string_view)> missionIs(pb::MissionState state) {
 std::function<bool(std::string_view)> calibrating(bool wanted) {
   return [wanted](std::string_view payload) {
     pb::CalibrationStateTel told;
-    const bool resting = parse(payload, told) && told.calibration_state().status() ==
-                                                     pb::CalibrationState::STATUS_NOT_CALIBRATING;
+    if (!parse(payload, told) || !told.has_calibration_state()) return false;
+    const bool resting =
+        told.calibration_state().status() == pb::CalibrationState::STATUS_NOT_CALIBRATING;
     return resting != wanted;
   };
 }
@@ -252,7 +253,7 @@ void Services::addSwitch(const char* name, bool (pb::ControlMode::*state)() cons
     message.mutable_state()->set_enabled(on);
     const auto shows = [state, on](std::string_view payload) {
       pb::ControlModeTel told;
-      return parse(payload, told) && (told.state().*state)() == on;
+      return parse(payload, told) && told.has_state() && (told.state().*state)() == on;
     };
     return control(message.GetTypeName(), message.SerializeAsString(), "ControlModeTel", shows,
                    true);
@@ -268,18 +269,18 @@ void Services::addControllers() {
   addSwitch<pb::AutoPilotSurgeYawCtrl>(topics::kAutoPilotSurgeYaw,
                                        &pb::ControlMode::auto_pilot_surge_yaw);
   addSwitch<pb::AutoPilotHeaveCtrl>(topics::kAutoPilotHeave, &pb::ControlMode::auto_pilot_heave);
-  advertise<std_srvs::SetBool>(topics::kSetTiltStabilization,
-                               [this](std_srvs::SetBoolRequest& wanted) {
-                                 const bool on = wanted.data != 0;
-                                 pb::TiltStabilizationCtrl message;
-                                 message.mutable_state()->set_enabled(on);
-                                 const auto shows = [on](std::string_view payload) {
-                                   pb::TiltStabilizationTel told;
-                                   return parse(payload, told) && told.state().enabled() == on;
-                                 };
-                                 return control(message.GetTypeName(), message.SerializeAsString(),
-                                                "TiltStabilizationTel", shows, true);
-                               });
+  advertise<std_srvs::SetBool>(
+      topics::kSetTiltStabilization, [this](std_srvs::SetBoolRequest& wanted) {
+        const bool on = wanted.data != 0;
+        pb::TiltStabilizationCtrl message;
+        message.mutable_state()->set_enabled(on);
+        const auto shows = [on](std::string_view payload) {
+          pb::TiltStabilizationTel told;
+          return parse(payload, told) && told.has_state() && told.state().enabled() == on;
+        };
+        return control(message.GetTypeName(), message.SerializeAsString(), "TiltStabilizationTel",
+                       shows, true);
+      });
   advertise<std_srvs::SetBool>(topics::kGuestPorts, [this](std_srvs::SetBoolRequest& wanted) {
     const bool on = wanted.data != 0;
     return control(on ? "ActivateGuestPortsCtrl" : "DeactivateGuestPortsCtrl", {}, nullptr, {},
@@ -472,7 +473,8 @@ void Services::addSettings() {
       record.confirmed_by = nameOf("RecordStateTel");
       record.shows = [target = message.record_on()](std::string_view payload) {
         pb::RecordStateTel told;
-        return parse(payload, told) && told.record_state().main_is_recording() == target.main() &&
+        return parse(payload, told) && told.has_record_state() &&
+               told.record_state().main_is_recording() == target.main() &&
                told.record_state().guestport_is_recording() == target.guestport() &&
                told.record_state().multibeam_is_recording() == target.multibeam();
       };

@@ -333,6 +333,72 @@ TEST_F(Frames, BearingsAreToldFromHundredthsByTheirSize) {
   EXPECT_NEAR(toPing(told, context())->bearings[0], -M_PI / 3.0, 1e-6);
 }
 
+TEST_F(Frames, ASonarImageIsStampedWithItsArrivalWhateverTheDronesClockShows) {
+  pb::MultibeamPingTel told;
+  auto out = toPing(told, context());
+  EXPECT_FALSE(out);
+  told.mutable_ping();
+  out = toPing(told, context());
+  EXPECT_EQ(out->header.stamp, ros::Time(100, 0));
+  EXPECT_EQ(out->frame_time, ros::Time());
+  told.mutable_ping()->mutable_frame_generation_timestamp()->set_seconds(1700000000);
+  out = toPing(told, context());
+  EXPECT_EQ(out->header.stamp, ros::Time(100, 0));
+  EXPECT_EQ(out->frame_time, ros::Time(1700000000, 0));
+}
+
+// What the wire leaves out is no 0, no closed state and no level.
+TEST_F(Frames, AMessageWithoutItsContentGivesNothing) {
+  EXPECT_FALSE(toDepth({}, context()));
+  EXPECT_FALSE(toPressure({}, context()));
+  EXPECT_FALSE(toAltitude({}, context()));
+  EXPECT_FALSE(toForwardDistance({}, context()));
+  EXPECT_FALSE(toEstimate({}, context()));
+  EXPECT_FALSE(toNavFix({}, 1.0, context()));
+  EXPECT_FALSE(toDvlTwist({}, context()));
+  EXPECT_FALSE(toDvl({}, context()));
+  EXPECT_FALSE(toMagneticField({}, context()));
+  EXPECT_FALSE(toImuTemperature({}, context()));
+  EXPECT_FALSE(toControlMode({}, context()));
+  EXPECT_FALSE(toInfo({}, context()));
+  EXPECT_FALSE(toTimeReference({}, context()));
+  EXPECT_FALSE(toReference({}, context()));
+  EXPECT_FALSE(toHealth({}, context()));
+  EXPECT_FALSE(toWrench({}, context()));
+  EXPECT_FALSE(toDeclination({}, context()));
+  EXPECT_FALSE(toMission({}, context()));
+  EXPECT_FALSE(toAutoPilot({}, context()));
+  EXPECT_FALSE(toWaterTemperature({}, context()));
+  EXPECT_FALSE(toCpuTemperature({}, context()));
+  EXPECT_FALSE(toCanisterTemperature({}, context()));
+  EXPECT_FALSE(toHumidity({}, context()));
+  EXPECT_FALSE(toLights({}, context()));
+  EXPECT_FALSE(toGuestPortLights({}, context()));
+  EXPECT_FALSE(toLaser({}, context()));
+  EXPECT_FALSE(toCameraTilt({}, context()));
+  EXPECT_FALSE(toServo({}, context()));
+  EXPECT_FALSE(toMultibeamTilt({}, context()));
+  EXPECT_FALSE(toTiltStabilization({}, context()));
+  EXPECT_FALSE(toRecordState({}, context()));
+  EXPECT_FALSE(toCalibration({}, context()));
+  EXPECT_FALSE(toDiveTime({}, context()));
+  EXPECT_FALSE(toSurfaceUnit({}, context()));
+  EXPECT_EQ(toPilotFix({}, context())->status.status, sensor_msgs::NavSatStatus::STATUS_NO_FIX);
+}
+
+// The wire leaves out a 0 inside the content, which is a value all the same.
+TEST_F(Frames, AZeroInsideTheContentIsAValue) {
+  pb::LaserTel laser;
+  laser.mutable_laser();
+  EXPECT_EQ(toLaser(laser, context())->data, 0.0);
+  pb::TiltAngleTel tilt;
+  tilt.mutable_angle();
+  EXPECT_EQ(toCameraTilt(tilt, context())->position[0], 0.0);
+  pb::ControlModeTel mode;
+  mode.mutable_state();
+  EXPECT_FALSE(toControlMode(mode, context())->auto_depth);
+}
+
 TEST_F(Frames, ABatteryWithoutVoltageIsNoBattery) {
   pb::Battery told;
   EXPECT_FALSE(toBattery(told, 0, context()));

@@ -6,11 +6,14 @@ import unittest
 
 import rospy
 import rostest
-from frontseat_driver.msg import BlueyeMessage, ControlStatus, LinkStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from frontseat_driver.msg import (BlueyeBatteryDetails, BlueyeMessage, ControlStatus,
+                                  LinkStatus)
 from frontseat_driver.srv import BlueyeRequest, BlueyeControl
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu
+from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from fake_vehicle import wait_until
@@ -37,6 +40,7 @@ ESTIMATE = inner(1, number(1, 3.0) + number(2, 4.0) + number(3, 1.5707964) +
                  number(4, 0.5) + field(9, 0, b"\x01"))    # northing, easting, heading, surge, valid
 
 
+BATTERY = inner(1, b"\xba\x01\x03Ten")                       # 23: the manufacturer's name
 NAN = float("nan")
 UNKNOWN = 1e6
 
@@ -147,6 +151,31 @@ class BlueyeReplay(unittest.TestCase):
         unknown = odom.since(3000)[1]
         self.assertEqual(0.0, unknown.pose.pose.position.x)
         self.assertEqual(UNKNOWN, unknown.pose.covariance[0])
+
+    def test_a_message_without_content_changes_nothing(self):
+        laser = self.heard("laser", Float64)
+        details = self.heard("battery/details", BlueyeBatteryDetails)
+        diagnostics = self.heard("/diagnostics", DiagnosticArray)
+        self.warm_up((("LaserTel", inner(1, number(1, 0.25))), ("BatteryBQ40Z50Tel", BATTERY)),
+                     laser, details)
+        self.play("ErrorFlagsTel", inner(1, field(3, 0, b"\x01")), 4000)
+        for name in ("ErrorFlagsTel", "LaserTel", "BatteryBQ40Z50Tel"):
+            self.play(name, b"", 4001)
+        self.play("LaserTel", inner(1, number(1, 0.5)), 4002)
+        self.play("BatteryBQ40Z50Tel", BATTERY, 4002)
+        self.assertTrue(until(lambda: laser.messages[-1].data == 0.5 and details.since(4002)))
+        self.assertEqual({0.25, 0.5}, {message.data for message in laser.messages})
+        self.assertEqual({"Ten"}, {message.manufacturer for message in details.messages})
+
+        def told(layer):
+            statuses = [status for message in diagnostics.messages for status in message.status
+                        if status.name.endswith(": " + layer)]
+            return statuses[-1] if statuses else None
+
+        self.assertTrue(until(lambda: told("drone") and told("drone").level > 0))
+        self.assertIn("look it over", told("drone").message)
+        self.assertIn("playing a record from", told("link").message)
+        self.assertEqual(DiagnosticStatus.OK, told("link").level)
 
     def test_bad_bytes_cost_that_message_alone(self):
         depth = self.heard("depth", PoseWithCovarianceStamped)
