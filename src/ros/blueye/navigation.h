@@ -72,6 +72,11 @@ class Navigation {
   /// True once, when DVL and position estimate keep disagreeing about port and starboard.
   bool dvlDisagrees();
 
+  /// The drone computes its depth with another density of water from now on.
+  void setWaterDensity(double density_kg_m3) {
+    options_.conventions.water_density_kg_m3 = density_kg_m3;
+  }
+
   Context context(const ros::Time& stamp) const;
 
  private:

@@ -1,5 +1,6 @@
 #include "blueye/publisher.h"
 
+#include <blueye/control.pb.h>
 #include <frontseat_driver/BlueyeMessage.h>
 
 #include <boost/make_shared.hpp>
@@ -19,6 +20,9 @@ constexpr std::uint32_t kQueue = 100;
 constexpr std::uint32_t kRecordQueue = 2000;
 // Battery details hold more than the battery message: the latter is left out while they come.
 constexpr auto kDetailsFresh = 5s;
+// kg/m^3; a drone takes no other density, whatever is sent. The Dead Sea has 1240.
+constexpr double kLightestWater = 900.0;
+constexpr double kHeaviestWater = 1300.0;
 
 bool wanted(const ros::Publisher& publisher) { return publisher.getNumSubscribers() > 0; }
 
@@ -83,8 +87,14 @@ bool Publisher::publish(const vehicle::Now& now, std::string_view type, std::str
 }
 
 void Publisher::publishControl(const vehicle::Now& now, std::string_view type,
-                               std::string_view payload) const {
+                               std::string_view payload) {
   publishRaw(control_, now, type, payload);
+  if (type != nameOf("WaterDensityCtrl")) return;
+  pb::WaterDensityCtrl told;
+  if (!parse(payload, told)) return;
+  const double density_kg_m3 = told.density().value();
+  const bool is_water = density_kg_m3 >= kLightestWater && density_kg_m3 <= kHeaviestWater;
+  if (is_water) navigation_.setWaterDensity(density_kg_m3);
 }
 
 std::vector<std::string> Publisher::types() const {

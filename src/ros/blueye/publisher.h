@@ -40,8 +40,8 @@ class Publisher {
   /// False if the bytes are not of the type.
   bool publish(const vehicle::Now& now, std::string_view type, std::string_view payload);
 
-  void publishControl(const vehicle::Now& now, std::string_view type,
-                      std::string_view payload) const;
+  /// Something was sent. A density of water is what the drone computes its depth with from then on.
+  void publishControl(const vehicle::Now& now, std::string_view type, std::string_view payload);
 
   /// The link was lost.
   void forget() { navigation_.forget(); }

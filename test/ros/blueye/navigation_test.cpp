@@ -199,6 +199,14 @@ TEST_F(Together, RatesThatAreNoNumbersAreUnknown) {
   EXPECT_EQ(out.twist.covariance[7], kUnknown);
 }
 
+TEST_F(Together, PressureFollowsADensityThatIsSetLater) {
+  pb::DepthTel told;
+  told.mutable_depth()->set_value(10.0F);
+  navigation_.setWaterDensity(1000.0);
+  const auto pressure = toPressure(told, navigation_.context(ros::Time(1)));
+  EXPECT_NEAR(pressure->fluid_pressure, 98066.5, 1e-3);
+}
+
 TEST_F(Together, OdometryNeverJumpsWhenTheEstimateIsReset) {
   at(10.0F, 20.0F, 100);
   EXPECT_NEAR(odometry().pose.pose.position.x, 10.0, kClose);

@@ -10,10 +10,10 @@ import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from frontseat_driver.msg import BlueyeMessage, ControlStatus, Gripper, LinkStatus
-from frontseat_driver.srv import BlueyeControl, BlueyeRequest, LoadMission
-from geometry_msgs.msg import Twist
+from frontseat_driver.srv import BlueyeControl, BlueyeRequest, LoadMission, SetFloat
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState, NavSatFix
+from sensor_msgs.msg import FluidPressure, JointState, NavSatFix
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
@@ -146,6 +146,34 @@ class BlueyeLive(unittest.TestCase):
         pair.drone.stop()
         self.assertEqual(DiagnosticStatus.ERROR, pair.diagnosed("link", "is the drone on").level)
         self.assertEqual(DiagnosticStatus.OK, pair.diagnosed("battery", "last heard").level)
+
+    def test_pressure_follows_the_density_that_the_drone_was_told(self):
+        pair = self.pair("density")
+        pressure = Collector(pair.name + "/pressure", FluidPressure)
+        depth = Collector(pair.name + "/depth", PoseWithCovarianceStamped)
+        pair.take_control()
+        command = Twist()
+        command.linear.z = -0.5
+
+        def weight():
+            """N/m^3, of what came of one message of the drone."""
+            pair.velocity.publish(command)
+            depths = {message.header.stamp: -message.pose.pose.position.z
+                      for message in depth.messages[-5:]}
+            found = [message.fluid_pressure / depths[message.header.stamp]
+                     for message in pressure.messages[-5:]
+                     if depths.get(message.header.stamp, 0.0) > 0.1]
+            return found[-1] if found else None
+
+        self.assertAlmostEqual(1025.0 * 9.80665, wait_until(weight, "depth", 30.0), 1)
+        answer = call(pair.name + "/set_water_density", SetFloat, data=1000.0)
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: abs((weight() or 0.0) - 1000.0 * 9.80665) < 0.1, "the other density")
+        # As it is, past the service.
+        answer = call(pair.name + "/blueye/send_control", BlueyeControl, type="WaterDensityCtrl",
+                      json='{"density": {"value": 1040.0}}')
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: abs((weight() or 0.0) - 1040.0 * 9.80665) < 0.1, "the third density")
 
     def test_drives_stops_and_answers(self):
         pair = self.pair("drive")
