@@ -3,13 +3,16 @@
 
 Ten kinds of telemetry at 100 Hz, the fastest that a drone is asked for, and sonar images of 1.05 MB
 at 20 Hz from blueye_simulator; blueye_node, or a bare program that publishes what comes over ZeroMQ
-and looks into nothing; rosbag. One JSON object for each run, then a table; doc/performance.md
-explains it.
+and looks into nothing; a subscriber that counts, or rosbag. One JSON object for each run, then a
+table; doc/performance.md explains it.
 """
 
 import argparse
 import json
 import os
+import signal
+import subprocess
+import struct
 import sys
 import tempfile
 import time
@@ -59,35 +62,70 @@ def start_program(programs, program, ports):
 def start_recorder(programs, bag, topics):
     """Records from before the program is there, so that nothing of its first words is missed."""
     import rosgraph
-    recorder = programs.start("rosbag", "record", "-O", bag, "--tcpnodelay", "-b", "0",
-                              "__name:=recorder", *topics)
+    if topics:
+        words = ["rosbag", "record", "-O", bag, "--tcpnodelay", "-b", "0", "__name:=recorder"]
+        recorder = programs.start(*words + topics)
+    else:
+        recorder = programs.start(sys.executable, os.path.abspath(__file__), "--count",
+                                  stdout=subprocess.PIPE)
     wanted = "/rosout" if topics == ["-a"] else TELEMETRY
 
     def subscribed():
         state = ros_call(programs, rosgraph.Master("/bench").getSystemState)
-        return any(topic == wanted and "/recorder" in nodes for topic, nodes in state[1])
+        return any(topic == wanted and {"/recorder", "/counter"} & set(nodes)
+                   for topic, nodes in state[1])
     wait_until(subscribed, "the recorder")
     return recorder
+
+
+def count():
+    """Counts telemetry without a limit to its queue; tells it, and what the driver counted, at the
+    end."""
+    import rospy
+    from diagnostic_msgs.msg import DiagnosticArray
+    rospy.init_node("counter", disable_signals=True)
+    kinds, stamps, counted = {}, [], {}
+
+    def take(message):  # header: seq, stamp, frame; then the name of the type
+        buffer = message._buff
+        seconds, nanoseconds, frame = struct.unpack_from("<III", buffer, 4)
+        size = struct.unpack_from("<I", buffer, 16 + frame)[0]
+        kind = buffer[20 + frame:20 + frame + size].decode().split(".")[-1]
+        kinds[kind] = kinds.get(kind, 0) + 1
+        stamps.append(seconds + 1e-9 * nanoseconds)
+
+    rospy.Subscriber(TELEMETRY, rospy.AnyMsg, take, buff_size=1 << 24, tcp_nodelay=True)
+    rospy.Subscriber("/diagnostics", DiagnosticArray,
+                     lambda message: counted.update(link_values(message)))
+    signal.sigwait([signal.SIGINT])
+    print(json.dumps(summary(kinds, stamps, counted)), flush=True)
+
+
+def link_values(message):
+    return {value.key: int(value.value) for status in message.status
+            if status.name.endswith(": link") for value in status.values}
+
+
+def summary(kinds, stamps, counted):
+    return dict(kinds=kinds, messages=len(stamps), took=stamps[-1] - stamps[0], counted=counted,
+                disorder=sum(b < a for a, b in zip(stamps, stamps[1:])))
 
 
 def read_bag(path):
     """Messages by topic and kind, how long telemetry came, and the driver's last count of them."""
     import rosbag
-    kinds, stamps, counted = {}, [], None
+    kinds, stamps, counted = {}, [], {}
     with rosbag.Bag(path) as bag:
         topics = {name: topic.message_count
                   for name, topic in bag.get_type_and_topic_info().topics.items()}
         for topic, message, _ in bag.read_messages([TELEMETRY, "/diagnostics"]):
             if topic == "/diagnostics":
-                for status in message.status:
-                    if status.name.endswith(": link"):
-                        counted = {value.key: int(value.value) for value in status.values}
+                counted.update(link_values(message))
                 continue
             kind = message.type.split(".")[-1]
             kinds[kind] = kinds.get(kind, 0) + 1
             stamps.append(message.header.stamp.to_sec())
-    return dict(topics=topics, kinds=kinds, messages=len(stamps), took=stamps[-1] - stamps[0],
-                disorder=sum(b < a for a, b in zip(stamps, stamps[1:])), counted=counted)
+    return dict(summary(kinds, stamps, counted), topics=topics)
 
 
 def one_run(args, program, recorded):
@@ -96,7 +134,7 @@ def one_run(args, program, recorded):
     try:
         programs.start("rosmaster", "--core", "-p", programs.master_port)
         wait_until(lambda: is_up(programs), "the master")
-        topics = {"telemetry": [TELEMETRY, "/diagnostics"], "everything": ["-a"]}
+        topics = {"counted": [], "telemetry": [TELEMETRY, "/diagnostics"], "everything": ["-a"]}
         recorder = None
         if recorded != "nothing":
             recorder = start_recorder(programs, bag, topics[recorded])
@@ -110,7 +148,10 @@ def one_run(args, program, recorded):
                       memory_before_mib=memory, memory_mib=memory_mib(process.pid))
         programs.end(drone)
         time.sleep(3.0)  # the driver counts what it has heard once a second
-        if recorder:
+        if recorded == "counted":
+            recorder.send_signal(signal.SIGINT)
+            result.update(json.loads(recorder.stdout.readline()))
+        elif recorder:
             programs.end(recorder)
             wait_until(lambda: os.path.exists(bag), "the end of the record", 300.0)
             result.update(read_bag(bag))
@@ -126,8 +167,8 @@ def rate(run):
 
 
 def table(runs):
-    print("\n| program | recorded | messages/s | images/s | told by the drone | in the bag | "
-          "all topics in the bag | CPU, % of a core | MiB (PSS), start and end |\n" +
+    print("\n| program | telemetry is | messages/s | images/s | heard by the driver | arrived | "
+          "of all topics | CPU, % of a core | MiB (PSS), start and end |\n" +
           "| --- " * 9 + "|")
     for run in runs:
         print("| %s | %s | %s | %s | %s | %s | %s | %.1f | %.1f, %.1f |" % (
@@ -143,12 +184,18 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seconds", type=float, default=10.0, help="of each run")
     parser.add_argument("--repeats", type=int, default=1, help="of all, in turns")
+    parser.add_argument("--count", action="store_true", help=argparse.SUPPRESS)
     args = parser.parse_args()
+    if args.count:
+        # Before any thread begins, so that all of them leave it to sigwait().
+        signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
+        return count()
     runs = []
     with tempfile.TemporaryDirectory() as args.directory:
         for _ in range(args.repeats):
-            for program, recorded in (("bare", "telemetry"), ("driver", "telemetry"),
-                                      ("driver", "everything"), ("driver", "nothing")):
+            for program, recorded in (
+                    ("bare", "counted"), ("driver", "counted"), ("driver", "nothing"),
+                    ("bare", "telemetry"), ("driver", "telemetry"), ("driver", "everything")):
                 runs.append(one_run(args, program, recorded))
     table(runs)
 
