@@ -135,9 +135,10 @@ class Launch(unittest.TestCase):
 
     def test_models_have_the_sensor_frames(self):
         boat = {"imu_link", "gps_link", "compass_0_link", "compass_1_link", "altimeter_link"}
-        drone = {"imu_link", "dvl_link", "altimeter_link", "pinger_link", "camera_tilt_link"}
+        drone = {"imu_link", "dvl_link", "altimeter_link", "pinger_link", "camera_tilt_link",
+                 "sonar_link"}
         frames = {"kingfisher": boat, "sandshark": boat, "blueye": drone}
-        moving = {"camera_tilt": "revolute"}
+        moving = {"camera_tilt": "revolute", "multibeam_tilt": "revolute"}
         self.assertEqual({"urdf/%s.urdf" % name for name in frames},
                          set(package.files("urdf", ".urdf")))
         for name, expected in frames.items():
