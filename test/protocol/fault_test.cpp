@@ -34,6 +34,10 @@ const Row kRows[] = {
      Fault::OutOfRange, 9, "CPNVG,000000,4230,N,07106,W,1,1,2,,4,5,000000"},
     {"nvg_roll_above_180", "CPNVG,000000,4230,N,07106,W,1,1,2,3,180.1,5,000000", Fault::OutOfRange,
      10, "CPNVG,000000,4230,N,07106,W,1,1,2,3,,5,000000"},
+    {"nvg_roll_below_180", "CPNVG,000000,4230,N,07106,W,1,1,2,3,-180.1,5,000000", Fault::OutOfRange,
+     10, "CPNVG,000000,4230,N,07106,W,1,1,2,3,,5,000000"},
+    {"nvg_pitch_above_90", "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,90.1,000000", Fault::OutOfRange,
+     11, "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,,000000"},
     {"nvg_pitch_below_90", "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,-90.1,000000", Fault::OutOfRange,
      11, "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,,000000"},
     {"nvg_time_of_solution", "CPNVG,000000,4230,N,07106,W,1,1,2,3,4,5,240000", Fault::OutOfRange,
@@ -55,7 +59,11 @@ const Row kRows[] = {
      "CPRCM,000000,0,1,,3,000000"},
     {"rbs_id", "CPRBS,000000,a,15,3,4,20", Fault::BadValue, 2, "CPRBS,000000,,15,3,4,20"},
     {"dep_thrust_above_100", "PYDEP,0.1,100.5", Fault::OutOfRange, 2, "PYDEP,0.1,"},
-    {"dir_thrust_below_100", "PYDIR,-101,5", Fault::OutOfRange, 1, "PYDIR,,5"},
+    {"dep_thrust_below_100", "PYDEP,0.1,-100.5", Fault::OutOfRange, 2, "PYDEP,0.1,"},
+    {"dir_port_below_100", "PYDIR,-100.5,5", Fault::OutOfRange, 1, "PYDIR,,5"},
+    {"dir_port_above_100", "PYDIR,100.5,5", Fault::OutOfRange, 1, "PYDIR,,5"},
+    {"dir_starboard_below_100", "PYDIR,5,-100.5", Fault::OutOfRange, 2, "PYDIR,5,"},
+    {"dir_starboard_above_100", "PYDIR,5,100.5", Fault::OutOfRange, 2, "PYDIR,5,"},
     {"dev_heading_361", "PYDEV,361,1", Fault::OutOfRange, 1, "PYDEV,,1"},
     {"gga_quality", "GPGGA,000000,4230,N,07106,W,x,6,1,2,M,3,M,,", Fault::BadValue, 6,
      "GPGGA,000000,4230,N,07106,W,,6,1,2,M,3,M,,"},
@@ -82,6 +90,36 @@ TEST_P(Faults, CostOneField) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Table, Faults, testing::ValuesIn(kRows),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+struct Extreme {
+  const char* name;
+  const char* text;
+};
+
+const Extreme kExtremes[] = {
+    {"nvg_least", "CPNVG,000000,9000,S,18000,W,0,0,0,0,-180,-90,000000"},
+    {"nvg_most", "CPNVG,235959.999999,9000,N,18000,E,9,1,2,360,180,90,235959.999999"},
+    {"nvg_upside_down", "CPNVG,000000,4230,N,07106,W,1,1,2,3,120,5,000000"},
+    {"rcm_least", "CPRCM,000000,0,0,-90,-180,000000"},
+    {"rcm_most", "CPRCM,000000,9,360,90,180,000000"},
+    {"dep_least", "PYDEP,-1,-100"},
+    {"dep_most", "PYDEP,1,100"},
+    {"dir_least", "PYDIR,-100,-100"},
+    {"dir_most", "PYDIR,100,100"},
+    {"dev_most", "PYDEV,360,1"},
+};
+
+class Extremes : public testing::TestWithParam<Extreme> {};
+
+TEST_P(Extremes, AreInRange) {
+  const Line line{GetParam().text};
+  const auto reading = line.decoded();
+  ASSERT_TRUE(reading);
+  EXPECT_EQ(reading->faults.count, 0) << "field " << reading->faults.first.field;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Extremes, testing::ValuesIn(kExtremes),
                          [](const auto& row) { return std::string{row.param.name}; });
 
 /// How many fields a sentence must have; all of them may be blank.

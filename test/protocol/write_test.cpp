@@ -28,6 +28,7 @@ const Heading kHeadings[] = {
     {"rounds_up_to_north_in_the_last_decimal", 359.99996, "0", "0.0000"},
     {"just_does_not", 359.99994, "0", "359.9999"},
     {"full_turn", 360.0, "0", "0.0000"},
+    {"a_bit_more_than_a_turn", 360.75, "1", "0.7500"},
     {"more_than_a_turn", 450.0, "90", "90.0000"},
     {"negative", -90.0, "270", "270.0000"},
     {"barely_negative", -1e-9, "0", "0.0000"},

@@ -467,5 +467,33 @@ TEST(CommandConvert, OneWrongFieldRefusesAll) {
   EXPECT_EQ(std::get<std::string>(toCommand(message, 0.0)), "speed is nan; 0..10 is accepted");
 }
 
+struct Age {
+  const char* name;
+  double stamp_s;  ///< 0: none
+  const char* refusal;
+};
+
+const Age kAges[] = {
+    {"without_a_stamp", 0.0, ""},
+    {"just_made", 100.0, ""},
+    {"at_the_limit", 99.5, ""},
+    {"beyond_it", 99.484375,
+     "header.stamp is 0.516 s old; at most 0.500 s (max_command_age) is accepted"},
+    {"of_another_day", 1.0,
+     "header.stamp is 99.000 s old; at most 0.500 s (max_command_age) is accepted"},
+    {"by_a_clock_that_is_ahead", 101.0, ""},
+};
+
+class BehaviorAge : public testing::TestWithParam<Age> {};
+
+TEST_P(BehaviorAge, IsTakenFromTheStamp) {
+  Behavior message;
+  message.header.stamp = ros::Time{GetParam().stamp_s};
+  EXPECT_EQ(tooOld(message, ros::Time{100.0}, std::chrono::milliseconds{500}), GetParam().refusal);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, BehaviorAge, testing::ValuesIn(kAges),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
 }  // namespace
 }  // namespace frontseat_driver::ros_layer

@@ -57,6 +57,8 @@ TEST_F(CompassDisagreement, HeedsConventionAndDeclination) {
   parameters.magnetic_declination_rad = -1.0;
   CompassCheck declined{parameters};
   EXPECT_EQ(told(declined, 234.0, 234.0 + 57.3, 60s), 0);
+  EXPECT_EQ(told(declined, 234.0, 10.0, 60s), 1);
+  EXPECT_EQ(last_.substr(0, 26), "the compass tells 313 deg ");  // 10 - 57.3
 }
 
 }  // namespace

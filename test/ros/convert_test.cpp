@@ -232,6 +232,9 @@ TEST(WrapHeading, IsBelowAFullTurn) {
   EXPECT_EQ(wrapHeading_deg(0.0), 0.0);
   EXPECT_EQ(wrapHeading_deg(360.0), 0.0);
   EXPECT_EQ(wrapHeading_deg(-1.0), 359.0);
+  EXPECT_EQ(wrapHeading_deg(0.5), 0.5);
+  EXPECT_EQ(wrapHeading_deg(359.75), 359.75);
+  EXPECT_EQ(wrapHeading_deg(360.25), 0.25);
   EXPECT_EQ(wrapHeading_deg(721.5), 1.5);
   EXPECT_EQ(wrapHeading_deg(-1e-20), 0.0);
   EXPECT_FALSE(std::signbit(wrapHeading_deg(-360.0)));
@@ -246,6 +249,7 @@ TEST(Positions, ThatCannotBeAreNotUsable) {
   EXPECT_FALSE(isUsable({nan, 1.0}));
   EXPECT_FALSE(isUsable({1.0, nan}));
   EXPECT_TRUE(isUsable({0.0, 1e-7}));
+  EXPECT_TRUE(isUsable({-1e-7, 0.0}));
   EXPECT_TRUE(isUsable({-90.0, 180.0}));
 }
 

@@ -322,14 +322,36 @@ TEST_F(Builder, BlankDownIsZeroAndUnknown) {
 }
 
 TEST_F(Builder, ABlankRateIsZeroAndUnknown) {
-  vehicle::Velocity velocity = someVelocity();
-  velocity.pitch_rate_deg_s.reset();
-  boat_.take(velocity, at(0s));
-  const auto odom = odometryOf(boat_, navigationAt(kHarbor), at(0s));
-  expectNear(odom.twist.twist.angular, kOneDegree, 0.0, -3.0 * kOneDegree);
-  EXPECT_EQ(odom.twist.covariance[21], kRateVariance);
-  EXPECT_EQ(odom.twist.covariance[28], kUnknown);
-  EXPECT_EQ(odom.twist.covariance[35], kRateVariance);
+  struct Row {
+    std::optional<double> vehicle::Velocity::*blank;
+    double x, y, z;
+    std::size_t unknown;  ///< in the covariance
+  };
+  const Row kRows[] = {
+      {&vehicle::Velocity::roll_rate_deg_s, 0.0, -2.0 * kOneDegree, -3.0 * kOneDegree, 21},
+      {&vehicle::Velocity::pitch_rate_deg_s, kOneDegree, 0.0, -3.0 * kOneDegree, 28},
+      {&vehicle::Velocity::yaw_rate_deg_s, kOneDegree, -2.0 * kOneDegree, 0.0, 35}};
+  for (const Row& row : kRows) {
+    vehicle::Velocity velocity = someVelocity();
+    (velocity.*row.blank).reset();
+    boat_.take(velocity, at(0s));
+    const auto odom = odometryOf(boat_, navigationAt(kHarbor), at(0s));
+    expectNear(odom.twist.twist.angular, row.x, row.y, row.z);
+    for (const std::size_t i : {21U, 28U, 35U}) {
+      EXPECT_EQ(odom.twist.covariance[i], i == row.unknown ? kUnknown : kRateVariance) << i;
+    }
+  }
+}
+
+TEST_F(Builder, TellsHowFarStampsAreHeldBack) {
+  boat_.take(navigationAt(kHarbor), at(100s));
+  EXPECT_TRUE(boat_.depth());
+  EXPECT_EQ(boat_.takeHeldBack(), 0s);
+  boat_.take(navigationAt(kHarbor), at(93s));
+  ASSERT_TRUE(boat_.depth());
+  EXPECT_EQ(boat_.depth()->header.stamp, stampAt(100s));
+  EXPECT_EQ(boat_.takeHeldBack(), 7s);
+  EXPECT_EQ(boat_.takeHeldBack(), 0s);
 }
 
 TEST_F(Builder, NoPositionMeansNoOdometryAndNoFix) {
@@ -643,6 +665,9 @@ TEST_F(Builder, NoBottomIsNotPublished) {
     EXPECT_FALSE(shark_.altitude());
     EXPECT_FALSE(boat_.altitude());
   }
+  navigation.altitude_m = 0.125;
+  boat_.take(navigation, at(0s));
+  EXPECT_TRUE(boat_.altitude());
 }
 
 TEST_F(Builder, NavVelocityIsEnu) {
@@ -733,6 +758,7 @@ TEST_F(Builder, ImuWithoutRollOrPitchIsUnknownAboutThatAxis) {
   navigation.pitch_deg.reset();
   boat_.take(navigation, at(0s));
   expectDiagonal(boat_.imu()->orientation_covariance, {kUnknown, kUnknown, kOrientationVariance});
+  EXPECT_EQ(boat_.imu()->orientation.w, 1.0);  // east, level
 }
 
 TEST_F(Builder, ImuWithoutARateIsUnknownAboutThatAxis) {
@@ -763,18 +789,43 @@ TEST_F(Builder, RawImuInGIsScaled) {
   raw.acceleration_z = -1.0;
   builder.take(raw, at(0s));
   EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.x, 4.903325);  // half of 9.80665
+  EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.y, -2.4516625);
   EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.z, 9.80665);
 }
 
-TEST_F(Builder, RawImuWithoutAnAxisIsUnknownThere) {
+TEST_F(Builder, RawImuWithoutAnAxisIsZeroAndUnknownThere) {
   vehicle::RawImu raw = someRawImu();
   raw.acceleration_y.reset();
   raw.rate_x_deg_s.reset();
   boat_.take(raw, at(0s));
-  expectDiagonal(boat_.rawImu()->linear_acceleration_covariance,
+  auto imu = *boat_.rawImu();
+  expectNear(imu.linear_acceleration, 0.5, 0.0, 9.75);
+  expectDiagonal(imu.linear_acceleration_covariance,
                  {kAccelerationVariance, kUnknown, kAccelerationVariance});
-  expectDiagonal(boat_.rawImu()->angular_velocity_covariance,
-                 {kUnknown, kRateVariance, kRateVariance});
+  expectNear(imu.angular_velocity, 0.0, -2.0 * kOneDegree, -3.0 * kOneDegree);
+  expectDiagonal(imu.angular_velocity_covariance, {kUnknown, kRateVariance, kRateVariance});
+
+  raw = someRawImu();
+  raw.acceleration_x.reset();
+  raw.rate_y_deg_s.reset();
+  boat_.take(raw, at(0s));
+  imu = *boat_.rawImu();
+  expectNear(imu.linear_acceleration, 0.0, -0.25, 9.75);
+  expectDiagonal(imu.linear_acceleration_covariance,
+                 {kUnknown, kAccelerationVariance, kAccelerationVariance});
+  expectNear(imu.angular_velocity, kOneDegree, 0.0, -3.0 * kOneDegree);
+  expectDiagonal(imu.angular_velocity_covariance, {kRateVariance, kUnknown, kRateVariance});
+
+  raw = someRawImu();
+  raw.acceleration_z.reset();
+  raw.rate_z_deg_s.reset();
+  boat_.take(raw, at(0s));
+  imu = *boat_.rawImu();
+  expectNear(imu.linear_acceleration, 0.5, -0.25, 0.0);
+  expectDiagonal(imu.linear_acceleration_covariance,
+                 {kAccelerationVariance, kAccelerationVariance, kUnknown});
+  expectNear(imu.angular_velocity, kOneDegree, -2.0 * kOneDegree, 0.0);
+  expectDiagonal(imu.angular_velocity_covariance, {kRateVariance, kRateVariance, kUnknown});
 }
 
 TEST_F(Builder, BlankRawImuIsNotPublished) {

@@ -95,6 +95,20 @@ TEST_F(Record, StartsAgainWhereItsTimeGoesBack) {
   EXPECT_EQ(heard_at_.back().stamp, kStart);
 }
 
+TEST_F(Record, StartsAgainWhereItsTimeGoesBackByMoreThanASecond) {
+  play(10s, "connection_1", "$a");
+  play(9s, "connection_1", "$b");
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), "restart"), 0);
+  play(8990ms, "connection_1", "$c");
+  EXPECT_EQ(std::count(told_.begin(), told_.end(), "restart"), 1);
+}
+
+TEST_F(Record, AConnectionEndsNoEarlierThanItsLastLine) {
+  play(10s, "connection_1", "$a");
+  play(9500ms, "connection_2", "$b");
+  EXPECT_EQ(heard_at_.back().stamp, kStart + 10s);
+}
+
 TEST_F(Record, KnowsARestartedDriver) {
   play(0s, "connection_1@100.000", "$a");
   play(10s, "connection_2@100.000", "$b");

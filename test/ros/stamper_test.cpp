@@ -69,6 +69,37 @@ TEST_P(StampedData, IsStamped) {
 INSTANTIATE_TEST_SUITE_P(Table, StampedData, testing::ValuesIn(kStamped),
                          [](const auto& row) { return std::string{row.param.name}; });
 
+/// The vehicle's clock is three hours behind this computer's, a GPS receiver's 18 s ahead of it.
+class Synced : public testing::Test {
+ protected:
+  Synced() {
+    stamper_.take(9h, TimeScale::Vehicle, arrivalAt(12h));
+    stamper_.take(12h + 18s, TimeScale::Utc, arrivalAt(12h));
+  }
+
+  Stamper stamper_{StampMode::Synced};
+};
+
+TEST_F(Synced, EachClockHasItsOwnOffset) {
+  const Now arrival = arrivalAt(12h + 1s);
+  EXPECT_EQ(stamper_.stamp(9h + 900ms, TimeScale::Vehicle, arrival), timeAt(12h + 900ms - 1000s));
+  EXPECT_EQ(stamper_.stamp(12h + 18s + 500ms, TimeScale::Utc, arrival),
+            timeAt(12h + 500ms - 1000s));
+  EXPECT_EQ(stamper_.clock().offset, 3h - 1000s);
+}
+
+TEST_F(Synced, StampsAreNotLaterThanTheArrival) {
+  EXPECT_EQ(stamper_.stamp(9h + 1100ms, TimeScale::Vehicle, arrivalAt(12h + 1s)),
+            timeAt(12h + 1s - 1000s));
+}
+
+TEST_F(Synced, ATimeThatIsMuchTooOldIsNotBelieved) {
+  const Now arrival = arrivalAt(12h + 50s);
+  EXPECT_EQ(stamper_.stamp(9h + 20s + 1us, TimeScale::Vehicle, arrival),
+            timeAt(12h + 20s + 1us - 1000s));
+  EXPECT_EQ(stamper_.stamp(9h + 20s, TimeScale::Vehicle, arrival), timeAt(12h + 50s - 1000s));
+}
+
 TEST(OwnTime, IsOnTheRosClock) {
   EXPECT_EQ(Stamper(StampMode::Receive).ownTime(12h, arrivalAt(12h + 1s)), timeAt(12h - 1000s));
 }

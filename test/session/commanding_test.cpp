@@ -844,13 +844,25 @@ TEST_F(Commanding, WhatIsCommandedCanBeSeen) {
 }
 
 TEST_F(Commanding, ABoatThatTellsNoVelocityUnderThrustIsNoticed) {
-  startKingfisher();
-  for (auto passed = 0ms; passed < 11s; passed += 100ms) {
-    hear("CPNVR,120000.000,nan,nan,0,0,0,0");
-    command(vehicle::DriveCommand{1.0, 1.0});
-    pass(100ms);
+  for (const char* velocity : {"nan,nan", "0.5,nan", "nan,0.5"}) {
+    startKingfisher();
+    for (auto passed = 0ms; passed < 11s; passed += 100ms) {
+      hear(std::string{"CPNVR,120000.000,"} + velocity + ",0,0,0,0");
+      command(vehicle::DriveCommand{1.0, 1.0});
+      pass(100ms);
+    }
+    EXPECT_THAT(session_->effectComplaint(), HasSubstr("the vehicle does not move")) << velocity;
   }
-  EXPECT_THAT(session_->effectComplaint(), HasSubstr("the vehicle does not move"));
+}
+
+TEST_F(Commanding, ASwitchAfterTheHandshakeAsksForNothingElse) {
+  start(withDialect(Dialect::Sandshark));
+  pass(5s);
+  out_.sent.clear();
+  request(LogSwitch{"CTD", true});
+  pass(100ms);
+  EXPECT_THAT(out_.sent, SizeIs(1));
+  EXPECT_THAT(out_.sent.back().sentence, HasSubstr("BPLOG,CTD,ON"));
 }
 
 TEST_F(Commanding, AMovingTargetDoesNotHideAJammedRudder) {
@@ -925,11 +937,43 @@ TEST(CommandFormat, FillsWhatIsLeftAloneWithThePresent) {
   format.fill_behavior_fields = true;
   PresentState present;
   present.heading_deg = 123.5;
-  present.depth_m = -0.1;  // just above the surface
+  present.depth_m = 3.0;
   present.speed_m_s = 0.75;
   nmea::SentenceWriter writer =
       commandSentence(behavior({}, {{V::Pitch, 2.0}}, {}), format, present, 12h);
   EXPECT_EQ(writer.finish(), "$BPRMB,120000.000,123.5000,2.000,2,0.750,1,0*56\r\n");
+}
+
+TEST(CommandFormat, FillsNoDepthAboveTheSurface) {
+  CommandFormat format;
+  format.fill_behavior_fields = true;
+  PresentState present;
+  const auto filled = [&](double depth_m) {
+    present.depth_m = depth_m;
+    nmea::SentenceWriter writer = commandSentence(
+        behavior({{H::Heading, 90.0}}, {}, {{S::Rpm, 600.0}}), format, present, 12h);
+    return std::string{writer.finish().value_or("")};
+  };
+  EXPECT_THAT(filled(-0.1), HasSubstr(",90.0000,0.000,0,600.000,0,0*"));
+  EXPECT_THAT(filled(0.5), HasSubstr(",90.0000,0.500,0,600.000,0,0*"));
+}
+
+TEST(CommandFormat, FillingNeedsWhatTheCommandLeavesOpen) {
+  PresentState present;
+  present.heading_deg = 1.0;
+  present.depth_m = 2.0;
+  present.speed_m_s = 3.0;
+  CommandFormat format;
+  EXPECT_TRUE(canBeSent(behavior({}, {}, {}), format, {}));
+  format.fill_behavior_fields = true;
+  EXPECT_TRUE(canBeSent(behavior({}, {}, {}), format, present));
+  EXPECT_TRUE(canBeSent(vehicle::DriveCommand{}, format, {}));
+  const BehaviorCommand whole =
+      behavior({{H::Heading, 90.0}}, {{V::Depth, 5.0}}, {{S::Rpm, 600.0}});
+  EXPECT_TRUE(canBeSent(whole, format, {}));
+  EXPECT_FALSE(canBeSent(behavior({}, whole.vertical, whole.speed), format, {}));
+  EXPECT_FALSE(canBeSent(behavior(whole.horizontal, {}, whole.speed), format, {}));
+  EXPECT_FALSE(canBeSent(behavior(whole.horizontal, whole.vertical, {}), format, {}));
 }
 
 TEST(SpeedTable, IsInterpolatedAndNeverLeft) {

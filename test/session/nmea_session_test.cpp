@@ -67,6 +67,9 @@ TEST_F(NmeaSessionTest, ASentenceTheLinkDoesNotTakeIsTriedAgain) {
   pass(1s);
   EXPECT_THAT(out_.sent, SizeIs(6));
   EXPECT_EQ(session_->counters().sentences_sent, 6u);
+  std::uint64_t bytes = 0;
+  for (const auto& sent : out_.sent) bytes += sent.sentence.size();
+  EXPECT_EQ(session_->counters().bytes_sent, bytes);
 }
 
 TEST_F(NmeaSessionTest, EveryByteIsDecodedRefusedALineEndOrPending) {
@@ -265,6 +268,21 @@ TEST_F(NmeaSessionTest, ClosedGateIsTheReason) {
   start(options);
   EXPECT_FALSE(out_.control.commands_enabled);
   EXPECT_EQ(out_.reason, "the command gate is closed; service enable_commands opens it");
+}
+
+// Else the driver's thread would go round without a pause.
+TEST_F(NmeaSessionTest, NothingIsDueAfterAReconnectUntilTheVehicleSpeaks) {
+  for (const bool listen_only : {false, true}) {
+    NmeaOptions options;
+    options.listen_only = listen_only;
+    start(options);
+    disconnect();
+    connect();
+    elapsed_ += 1ms;
+    session_->step(now(), out_);
+    EXPECT_GT(session_->nextStep(), now().steady) << listen_only;
+    EXPECT_TRUE(out_.sent.empty());
+  }
 }
 
 }  // namespace

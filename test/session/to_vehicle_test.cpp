@@ -68,23 +68,112 @@ TEST(ToVehicle, AltitudeZeroIsNoBottom) {
   EXPECT_EQ(as<vehicle::Navigation>(nav).altitude_m, 0.1);
 }
 
-TEST(ToVehicle, RatesKeepTheirNames) {
+TEST(ToVehicle, NavigationKeepsItsNames) {
+  protocol::NavigationUpdate nav;
+  nav.position = nmea::LatLon{34.5, -122.25};
+  nav.from_gps = true;
+  nav.altitude_m = 1.0;
+  nav.depth_m = 2.0;
+  nav.heading_deg = 3.0;
+  nav.roll_deg = 4.0;
+  nav.pitch_deg = 5.0;
+  const auto out = as<vehicle::Navigation>(nav);
+  ASSERT_TRUE(out.position);
+  EXPECT_EQ(out.position->latitude_deg, 34.5);
+  EXPECT_EQ(out.position->longitude_deg, -122.25);
+  EXPECT_TRUE(out.from_gps);
+  EXPECT_EQ(out.altitude_m, 1.0);
+  EXPECT_EQ(out.depth_m, 2.0);
+  EXPECT_EQ(out.heading_deg, 3.0);
+  EXPECT_EQ(out.roll_deg, 4.0);
+  EXPECT_EQ(out.pitch_deg, 5.0);
+}
+
+TEST(ToVehicle, VelocitiesAndRatesKeepTheirNames) {
   protocol::VelocityUpdate velocity;
+  velocity.east_m_s = -1.0;
+  velocity.north_m_s = -2.0;
+  velocity.down_m_s = -3.0;
   velocity.pitch_rate_deg_s = 1.0;
   velocity.roll_rate_deg_s = 2.0;
   velocity.yaw_rate_deg_s = 3.0;
   const auto out = as<vehicle::Velocity>(velocity);
+  EXPECT_EQ(out.east_m_s, -1.0);
+  EXPECT_EQ(out.north_m_s, -2.0);
+  EXPECT_EQ(out.down_m_s, -3.0);
   EXPECT_EQ(out.pitch_rate_deg_s, 1.0);
   EXPECT_EQ(out.roll_rate_deg_s, 2.0);
   EXPECT_EQ(out.yaw_rate_deg_s, 3.0);
 }
 
+TEST(ToVehicle, AxesOfTheImuKeepTheirNames) {
+  protocol::kingfisher::RawImu imu;
+  imu.rate_x_deg_s = 1.0;
+  imu.rate_y_deg_s = 2.0;
+  imu.rate_z_deg_s = 3.0;
+  imu.acceleration_x = 4.0;
+  imu.acceleration_y = 5.0;
+  imu.acceleration_z = 6.0;
+  const auto out = as<vehicle::RawImu>(imu);
+  EXPECT_EQ(out.rate_x_deg_s, 1.0);
+  EXPECT_EQ(out.rate_y_deg_s, 2.0);
+  EXPECT_EQ(out.rate_z_deg_s, 3.0);
+  EXPECT_EQ(out.acceleration_x, 4.0);
+  EXPECT_EQ(out.acceleration_y, 5.0);
+  EXPECT_EQ(out.acceleration_z, 6.0);
+}
+
+TEST(ToVehicle, AnglesOfACompassKeepTheirNames) {
+  protocol::kingfisher::RawCompass compass;
+  compass.compass_id = 7;
+  compass.heading_deg = 1.0;
+  compass.pitch_deg = 2.0;
+  compass.roll_deg = 3.0;
+  const auto out = as<vehicle::Compass>(compass);
+  EXPECT_EQ(out.id, 7);
+  EXPECT_EQ(out.heading_deg, 1.0);
+  EXPECT_EQ(out.pitch_deg, 2.0);
+  EXPECT_EQ(out.roll_deg, 3.0);
+}
+
+TEST(ToVehicle, VoltagesOfABatteryKeepTheirNames) {
+  protocol::kingfisher::BatteryVoltage battery;
+  battery.battery_id = 7;
+  battery.stack_v = 1.0;
+  battery.lowest_cell_v = 2.0;
+  battery.highest_cell_v = 3.0;
+  battery.temperature_c = 4.0;
+  const auto out = as<vehicle::Battery>(battery);
+  EXPECT_EQ(out.id, 7);
+  EXPECT_EQ(out.stack_v, 1.0);
+  EXPECT_EQ(out.lowest_cell_v, 2.0);
+  EXPECT_EQ(out.highest_cell_v, 3.0);
+  EXPECT_EQ(out.temperature_c, 4.0);
+}
+
+TEST(ToVehicle, AFixKeepsItsNames) {
+  protocol::gps::Fix fix;
+  fix.quality = 2;
+  fix.position = nmea::LatLon{-34.5, 122.25};
+  fix.altitude_m = 1.0;
+  fix.geoid_separation_m = 2.0;
+  const auto out = as<vehicle::GpsFix>(fix);
+  EXPECT_EQ(out.quality, 2);
+  ASSERT_TRUE(out.position);
+  EXPECT_EQ(out.position->latitude_deg, -34.5);
+  EXPECT_EQ(out.position->longitude_deg, 122.25);
+  EXPECT_EQ(out.altitude_m, 1.0);
+  EXPECT_EQ(out.geoid_separation_m, 2.0);
+}
+
 TEST(ToVehicle, KnotsBecomeMetresPerSecond) {
   protocol::gps::MinimumData rmc;
   rmc.speed_kn = 3600.0;
+  rmc.course_deg = 5.0;
   rmc.date = nmea::Date{2014, 12, 31};
   const auto out = as<vehicle::GpsVelocity>(rmc);
   EXPECT_DOUBLE_EQ(*out.speed_m_s, 1852.0);
+  EXPECT_EQ(out.course_deg, 5.0);
   EXPECT_EQ(*out.date, std::chrono::seconds{1419984000});
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 namespace frontseat_driver::ros_layer::blueye_layer {
@@ -234,6 +235,117 @@ TEST_F(Together, AStepTooLargeGoesIntoTheMap) {
   EXPECT_NEAR(odometry().pose.pose.position.x, 0.0, kClose);
   EXPECT_TRUE(navigation_.mapMoved());
   EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.x, 30.0, kClose);
+}
+
+TEST_F(Together, AStepTooLargeNorthwardGoesIntoTheMapToo) {
+  at(0.0F, 0.0F, 1);
+  estimate().mutable_global_position()->set_latitude(63.0);
+  estimate().mutable_global_position()->set_longitude(10.0);
+  odometry();
+  now_.steady += 100ms;
+  at(0.0F, 30.0F, 1);
+  estimate().clear_global_position();
+  EXPECT_NEAR(odometry().pose.pose.position.y, 0.0, kClose);
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.x, 0.0, kClose);
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.y, 30.0, kClose);
+}
+
+// 5 m/s for a second and a metre of rounding are no step.
+TEST_F(Together, AStepIsTooLargeWhereNoDroneIsSoFast) {
+  at(0.0F, 0.0F, 1);
+  odometry();
+  now_.steady += 1s;
+  at(3.5625F, 4.75F, 2);  // 5.9375 m
+  EXPECT_NEAR(odometry().pose.pose.position.x, 3.5625, kClose);
+  now_.steady += 1s;
+  at(3.5625F, 10.8125F, 3);  // 6.0625 m
+  EXPECT_NEAR(odometry().pose.pose.position.y, 4.75, kClose);
+}
+
+// At 60 N a degree of latitude is 111412.2 m and one of longitude 55800.0 m (series of WGS-84).
+TEST_F(Together, TheMapIsEastAndNorthOfTheDatum) {
+  NavigationOptions options;
+  options.datum = vehicle::Position{60.0, 10.0};
+  navigation_ = Navigation{options};
+  at(4.0F, 3.0F, 1);
+  estimate().mutable_global_position()->set_latitude(60.001);
+  estimate().mutable_global_position()->set_longitude(10.002);
+  odometry();
+  const auto map = navigation_.mapTransform(ros::Time(1));
+  ASSERT_TRUE(map);
+  EXPECT_EQ(map->header.frame_id, "map");
+  EXPECT_EQ(map->child_frame_id, "odom");
+  EXPECT_NEAR(map->transform.translation.x, 111.600 - 4.0, 0.01);
+  EXPECT_NEAR(map->transform.translation.y, 111.412 - 3.0, 0.01);
+  EXPECT_EQ(map->transform.translation.z, 0.0);
+  EXPECT_EQ(map->transform.rotation.w, 1.0);
+}
+
+TEST_F(Together, TheMapBeginsAtTheFirstGlobalPositionOfNoDatum) {
+  at(4.0F, 3.0F, 1);
+  estimate().mutable_global_position()->set_latitude(60.0);
+  estimate().mutable_global_position()->set_longitude(10.0);
+  odometry();
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.x, -4.0, kClose);
+  EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.y, -3.0, kClose);
+  // After a restart of the estimate the map is that of the first position still.
+  now_.steady += 1s;
+  at(0.0F, 0.0F, 0);
+  estimate().mutable_global_position()->set_latitude(60.001);
+  estimate().mutable_global_position()->set_longitude(10.002);
+  const auto out = odometry();
+  const auto map = navigation_.mapTransform(ros::Time(1))->transform.translation;
+  EXPECT_NEAR(map.x + out.pose.pose.position.x, 111.600, 0.01);
+  EXPECT_NEAR(map.y + out.pose.pose.position.y, 111.412, 0.01);
+}
+
+TEST_F(Together, TheTransformIsThePoseOfTheOdometry) {
+  attitude(10.0F, 20.0F, 30.0F);
+  depth(7.0F);
+  at(4.0F, 3.0F, 1);
+  const auto out = odometry();
+  const auto transform = navigation_.transform(out);
+  ASSERT_TRUE(transform);
+  EXPECT_EQ(transform->header.frame_id, "odom");
+  EXPECT_EQ(transform->child_frame_id, "base_link");
+  EXPECT_EQ(transform->transform.translation.x, 4.0);
+  EXPECT_EQ(transform->transform.translation.y, 3.0);
+  EXPECT_EQ(transform->transform.translation.z, -7.0);
+  EXPECT_EQ(transform->transform.rotation.x, out.pose.pose.orientation.x);
+  EXPECT_EQ(transform->transform.rotation.w, out.pose.pose.orientation.w);
+}
+
+TEST_F(Together, WhatIsNoNumberIsNoEstimateAndNoAttitude) {
+  const float nan = std::nanf("");
+  at(nan, 3.0F, 1);
+  EXPECT_FALSE(navigation_.take(estimate_, now_));
+  at(4.0F, nan, 1);
+  EXPECT_FALSE(navigation_.take(estimate_, now_));
+  at(4.0F, 3.0F, 1);
+  estimate().set_heading(nan);
+  EXPECT_FALSE(navigation_.take(estimate_, now_));
+  estimate().set_heading(0.0F);
+  for (const auto& angles :
+       {std::array<float, 3>{nan, 0.0F, 0.0F}, {0.0F, nan, 0.0F}, {0.0F, 0.0F, nan}}) {
+    attitude(angles[0], angles[1], angles[2]);
+    EXPECT_EQ(odometry().pose.covariance[21], kUnknown);
+  }
+  attitude(0.0F, 0.0F, 0.0F);
+  EXPECT_LT(odometry().pose.covariance[21], kUnknown);
+}
+
+TEST_F(Together, SwayOfDvlAndEstimateToStarboardAgree) {
+  for (const float sway_m_s : {0.5F, -0.5F}) {
+    navigation_ = Navigation{NavigationOptions{}};
+    at(0.0F, 0.0F, 1);
+    estimate().set_sway_rate(sway_m_s);
+    odometry();
+    pb::DvlVelocityTel dvl;
+    dvl.mutable_dvl_velocity()->mutable_velocity()->set_y(0.5);
+    dvl.mutable_dvl_velocity()->add_transducers()->set_beam_valid(true);
+    for (int i = 0; i < 200; ++i) navigation_.take(dvl, now_);
+    EXPECT_EQ(navigation_.dvlDisagrees(), sway_m_s < 0.0F);
+  }
 }
 
 TEST_F(Together, ImuHasTheFreshAttitudeOrNone) {
