@@ -19,7 +19,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak simulate plant lint bench clean
+.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak simulate plant mutate lint bench clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -82,6 +82,10 @@ simulate: ## missions in virtual time on all cores, any fault from a seed; SEEDS
 plant: ## plants bugs in a copy of the sources and shows that missions find each; SEEDS=100
 	@scripts/install_dependencies build test
 	@SEEDS=$(if $(filter file,$(origin SEEDS)),100,$(SEEDS)) HOURS=$(HOURS) scripts/plant_bugs
+
+mutate: ## gets one sign, scale, axis, time or comparison wrong at a time and expects a test to notice; FILES='src/ros/*'
+	@scripts/install_dependencies build test mutate
+	@scripts/mutate $(FILES)
 
 lint: ## clang-format, catkin_lint and clang-tidy over everything
 	@scripts/install_dependencies build test lint
