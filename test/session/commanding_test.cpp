@@ -855,6 +855,41 @@ TEST_F(Commanding, ABoatThatTellsNoVelocityUnderThrustIsNoticed) {
   }
 }
 
+TEST_F(Commanding, TheLastZeroWaitsForNoLongSpacing) {
+  NmeaOptions options = withDialect(Dialect::Kingfisher);
+  options.send_spacing = 1s;
+  startKingfisher(options);
+  command(vehicle::DriveCommand{0.5, 0.5});
+  pass(10ms);
+  ASSERT_THAT(out_.sent, SizeIs(1));
+  session_->leave(now(), out_);
+  pass(29ms);
+  EXPECT_THAT(out_.sent, SizeIs(1));
+  pass(1ms);
+  ASSERT_THAT(out_.sent, SizeIs(2));
+  EXPECT_EQ(out_.sent.back().sentence, kZero);
+}
+
+TEST_F(Commanding, NamesOfSentencesAreThreeCapitalsOrDigits) {
+  startSandshark();
+  for (const char* name : {"nvg", "NV", "NVGX", "N.1", "N/1", "N:1", "N@V", "N[V", ""}) {
+    answers_.clear();
+    out_.sent.clear();
+    request(LogSwitch{name, true});
+    pass(100ms);
+    ASSERT_THAT(answers_, SizeIs(1)) << name;
+    EXPECT_FALSE(answers_[0].success) << name;
+    EXPECT_THAT(out_.sent, IsEmpty()) << name;
+  }
+  for (const char* name : {"AZ0", "NV9"}) {
+    out_.sent.clear();
+    request(LogSwitch{name, true});
+    pass(100ms);
+    ASSERT_THAT(out_.sent, SizeIs(1)) << name;
+    EXPECT_THAT(out_.sent[0].sentence, HasSubstr(std::string{"BPLOG,"} + name + ",ON"));
+  }
+}
+
 TEST_F(Commanding, ASwitchAfterTheHandshakeAsksForNothingElse) {
   start(withDialect(Dialect::Sandshark));
   pass(5s);

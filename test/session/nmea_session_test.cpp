@@ -270,6 +270,11 @@ TEST_F(NmeaSessionTest, ClosedGateIsTheReason) {
   EXPECT_EQ(out_.reason, "the command gate is closed; service enable_commands opens it");
 }
 
+TEST_F(NmeaSessionTest, TellsWhoIsInControlAtOnce) {
+  NmeaSession session{NmeaOptions{}};
+  EXPECT_LE(session.nextStep(), now().steady);
+}
+
 // Else the driver's thread would go round without a pause.
 TEST_F(NmeaSessionTest, NothingIsDueAfterAReconnectUntilTheVehicleSpeaks) {
   for (const bool listen_only : {false, true}) {
