@@ -354,7 +354,7 @@ class Report:
         self.rows.append(row)
         self.writer.writerow(row)
         self.file.flush()
-        if outcome in (SURVIVED, NO_PROGRAM):
+        if outcome == SURVIVED:
             self.show(row)
         if len(self.rows) % 100 == 0:
             print("... %d of %d in %.0f s" % (len(self.rows), self.total,
@@ -424,7 +424,7 @@ def main():
     report = Report(result, len(found))
     workshop.try_all(found, report.tell)
     report.table()
-    return 1 if report.count(SURVIVED) or report.count(NO_PROGRAM) else 0
+    return 1 if report.count(SURVIVED) else 0
 
 
 if __name__ == "__main__":

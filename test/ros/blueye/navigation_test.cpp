@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <string>
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 namespace {
@@ -250,6 +251,16 @@ TEST_F(Together, AStepTooLargeNorthwardGoesIntoTheMapToo) {
   EXPECT_NEAR(navigation_.mapTransform(ros::Time(1))->transform.translation.y, 30.0, kClose);
 }
 
+TEST_F(Together, ASmallStepFarFromTheOriginIsNone) {
+  at(10.0F, 20.0F, 1);
+  odometry();
+  now_.steady += 100ms;
+  at(10.25F, 19.75F, 1);
+  const auto out = odometry();
+  EXPECT_NEAR(out.pose.pose.position.x, 10.25, kClose);
+  EXPECT_NEAR(out.pose.pose.position.y, 19.75, kClose);
+}
+
 // 5 m/s for a second and a metre of rounding are no step.
 TEST_F(Together, AStepIsTooLargeWhereNoDroneIsSoFast) {
   at(0.0F, 0.0F, 1);
@@ -347,6 +358,46 @@ TEST_F(Together, SwayOfDvlAndEstimateToStarboardAgree) {
     EXPECT_EQ(navigation_.dvlDisagrees(), sway_m_s < 0.0F);
   }
 }
+
+struct Rest {
+  const char* name;
+  std::array<double, 3> sensed_g;
+  std::array<float, 3> attitude_deg;
+  bool counts;
+};
+
+const Rest kRests[] = {
+    {"level", {0.1, 0.2, -1.0}, {0.0F, 0.0F, 0.0F}, true},
+    {"any_heading", {0.1, 0.2, -1.0}, {0.0F, 0.0F, 150.0F}, true},
+    {"rolled", {0.0, 0.0, -1.0}, {30.0F, 0.0F, 0.0F}, false},
+    {"pitched", {0.0, 0.0, -1.0}, {0.0F, 30.0F, 0.0F}, false},
+    {"a_g_in_all_ahead", {0.8, 0.0, -0.6}, {0.0F, 0.0F, 0.0F}, true},
+    {"a_g_in_all_to_starboard", {0.0, 0.8, -0.6}, {0.0F, 0.0F, 0.0F}, true},
+    {"pushed_ahead", {1.5, 0.0, -1.0}, {0.0F, 0.0F, 0.0F}, false},
+    {"pushed_to_starboard", {0.0, 1.5, -1.0}, {0.0F, 0.0F, 0.0F}, false},
+    {"pushed_up", {0.0, 0.0, -1.5}, {0.0F, 0.0F, 0.0F}, false},
+};
+
+class AccelerometerAtRest : public Together, public testing::WithParamInterface<Rest> {};
+
+TEST_P(AccelerometerAtRest, TellsTheSignOfItsAxes) {
+  const Rest& rest = GetParam();
+  attitude(rest.attitude_deg[0], rest.attitude_deg[1], rest.attitude_deg[2]);
+  pb::CalibratedImuTel told;
+  told.mutable_imu()->mutable_accelerometer()->set_x(rest.sensed_g[0]);
+  told.mutable_imu()->mutable_accelerometer()->set_y(rest.sensed_g[1]);
+  told.mutable_imu()->mutable_accelerometer()->set_z(rest.sensed_g[2]);
+  for (int i = 0; i < 20; ++i) navigation_.take(told, now_);
+  const auto out = navigation_.imu(now_, ros::Time(1));
+  EXPECT_EQ(out.linear_acceleration_covariance[0] != -1.0, rest.counts);
+  if (!rest.counts) return;
+  EXPECT_NEAR(out.linear_acceleration.x, rest.sensed_g[0] * 9.80665, 1e-4);
+  EXPECT_NEAR(out.linear_acceleration.y, -rest.sensed_g[1] * 9.80665, 1e-4);
+  EXPECT_NEAR(out.linear_acceleration.z, -rest.sensed_g[2] * 9.80665, 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, AccelerometerAtRest, testing::ValuesIn(kRests),
+                         [](const auto& row) { return std::string{row.param.name}; });
 
 TEST_F(Together, ImuHasTheFreshAttitudeOrNone) {
   pb::CalibratedImuTel told;
