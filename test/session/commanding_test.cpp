@@ -890,6 +890,18 @@ TEST_F(Commanding, NamesOfSentencesAreThreeCapitalsOrDigits) {
   }
 }
 
+TEST_F(Commanding, ASwitchWithinTheHandshakeLeavesNothingOut) {
+  NmeaOptions options = withDialect(Dialect::Sandshark);
+  options.log_sentences = {"NVG", "NVR", "MIS"};
+  start(options);
+  request(LogSwitch{"CTD", true});
+  pass(5s);
+  for (const char* name : {"NVG", "NVR", "MIS", "CTD"}) {
+    const std::string wanted = std::string{"BPLOG,"} + name + ",ON";
+    EXPECT_THAT(out_.sentences(), testing::Contains(HasSubstr(wanted)));
+  }
+}
+
 TEST_F(Commanding, ASwitchAfterTheHandshakeAsksForNothingElse) {
   start(withDialect(Dialect::Sandshark));
   pass(5s);
