@@ -24,4 +24,4 @@ target_link_libraries(blueye_simulator PRIVATE
   ${PROJECT_NAME}_simulator
 )
 
-install(TARGETS nmea_simulator blueye_simulator RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(TARGETS blueye_simulator nmea_simulator RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
