@@ -8,11 +8,10 @@ namespace frontseat_driver::capture {
 namespace {
 
 constexpr std::size_t kLargest = 1 << 20;  // of a packet or block; interfaces give 256 KB at most
-constexpr std::size_t kChunk = 64 * 1024;
+constexpr std::size_t kChunk = 64UL * 1024;
 constexpr std::size_t kMostInterfaces = 256;
 constexpr std::string_view kSection{"\x0A\x0D\x0D\x0A"};
 
-constexpr std::uint32_t kSectionBlock = 0x0A0D0D0A;
 constexpr std::uint32_t kInterfaceBlock = 1;
 constexpr std::uint32_t kOldPacketBlock = 2;
 constexpr std::uint32_t kSimplePacketBlock = 3;
@@ -39,8 +38,6 @@ const Magic* magicOf(std::string_view first) {
 std::uint8_t byteAt(std::string_view bytes, std::size_t at) {
   return static_cast<std::uint8_t>(bytes[at]);
 }
-
-constexpr std::uint64_t kNanoseconds = 1'000'000'000;
 
 std::uint64_t powerOfTen(int exponent) {
   std::uint64_t power = 1;

@@ -22,7 +22,7 @@ class TcpStream {
  public:
   using Time = std::optional<vehicle::UtcTime>;
 
-  static constexpr std::size_t kMostWaiting = 64 * 1024;
+  static constexpr std::size_t kMostWaiting = 64UL * 1024;
   static constexpr std::size_t kMostSegments = 256;
   static constexpr std::chrono::seconds kLongestWait{10};
 

@@ -129,7 +129,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
   }
 
   // Three sentences: a host acknowledges within 40 ms, two spacings of a Kingfisher.
-  bool congested() const override { return client_.unacknowledgedBytes() > 3 * 80; }
+  bool congested() const override { return client_.unacknowledgedBytes() > 3UL * 80; }
 
   void heard(const Now& now, std::string_view line) override { listener_.onHeard(now, line); }
 

@@ -207,7 +207,7 @@ bool FieldReader::readTheLongWay(std::string_view text, TimeOfDay& out) {
   const Pairs clock = pairs(toNumber(text.substr(0, 6)));
   const auto decimals_us = toNumber(microseconds) * kPowersOfTen[6 - microseconds.size()];
   return set(out, clock.first, clock.second,
-             clock.third * 1'000'000 + static_cast<std::int64_t>(decimals_us));
+             std::int64_t{clock.third} * 1'000'000 + static_cast<std::int64_t>(decimals_us));
 }
 
 /// The seconds may read 60 and a part.

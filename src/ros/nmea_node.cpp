@@ -12,21 +12,21 @@
 
 namespace {
 
-const int ending = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+const int kEnding = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
 std::atomic<bool> loaded{false};
 
 // Before the nodelet is there, ROS may be waiting for its master, and nothing else can end that.
 void onSignal(int) {
   if (!loaded) ros::requestShutdown();
   const std::uint64_t once = 1;
-  [[maybe_unused]] const auto written = write(ending, &once, sizeof once);
+  [[maybe_unused]] const auto written = write(kEnding, &once, sizeof once);
 }
 
 // roscpp takes some 0.3 s from a signal to the end of ros::spin(), long enough for another command
 // to the vehicle.
 void waitForTheEnd() {
   constexpr int kLookForRosShutdown_ms = 50;
-  pollfd signalled{ending, POLLIN, 0};
+  pollfd signalled{kEnding, POLLIN, 0};
   while (ros::ok() && poll(&signalled, 1, kLookForRosShutdown_ms) <= 0) {
   }
 }
@@ -40,8 +40,8 @@ int main(int argc, char** argv) {
   {
     nodelet::Loader loader{false};
     const nodelet::V_string no_arguments;
-    if (!loader.load(ros::this_node::getName(), NODELET_TYPE,
-                     ros::names::getRemappings(), no_arguments)) {
+    if (!loader.load(ros::this_node::getName(), NODELET_TYPE, ros::names::getRemappings(),
+                     no_arguments)) {
       return 1;
     }
     loaded = true;

@@ -196,7 +196,7 @@ Range between(double low, double high, const char* unit) { return {low, high, fa
 
 Range above(double low, double high, const char* unit) { return {low, high, true, unit}; }
 
-PrivateParameters::PrivateParameters(XmlRpcValue values) : values_(std::move(values)) {}
+PrivateParameters::PrivateParameters(const XmlRpcValue& values) : values_(values) {}
 
 bool PrivateParameters::has(const std::string& name) { return find(name) != nullptr; }
 

@@ -41,7 +41,7 @@ class PrivateParameters {
  public:
   /// `values` as ros::NodeHandle::getParam() gives the private namespace; anything but a struct
   /// means that no parameter is set.
-  explicit PrivateParameters(XmlRpc::XmlRpcValue values);
+  explicit PrivateParameters(const XmlRpc::XmlRpcValue& values);
 
   bool has(const std::string& name);
 

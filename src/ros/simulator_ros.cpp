@@ -10,6 +10,7 @@
 #include <iomanip>
 #include <locale>
 #include <sstream>
+#include <utility>
 
 #include "frontseat_driver/sim/angles.h"
 
@@ -81,7 +82,8 @@ using Callback = boost::function<bool(typename Service::Request&, typename Servi
 /// A service that has `act` done by the vehicle's thread and answers at once.
 ros::ServiceServer offer(ros::NodeHandle& node, SimulatorServer& server, const std::string& name,
                          std::function<void(SandsharkFrontseat&)> act) {
-  const Callback<std_srvs::Trigger> callback = [&server, act](auto&, auto& response) {
+  const Callback<std_srvs::Trigger> callback = [&server, act = std::move(act)](auto&,
+                                                                               auto& response) {
     server.post([act](Frontseat& vehicle) { act(dynamic_cast<SandsharkFrontseat&>(vehicle)); });
     response.success = true;
     return true;

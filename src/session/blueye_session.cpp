@@ -18,7 +18,6 @@ using vehicle::Grant;
 using vehicle::Now;
 using State = vehicle::MissionStatus::State;
 
-constexpr std::string_view kPackage = "blueye.protocol.";
 constexpr auto kWatchdogPeriod = 1s;
 constexpr auto kPingTimeout = 1s;
 constexpr auto kRegisterAgain = 1s;
@@ -292,7 +291,8 @@ void BlueyeSession::askForRate(const Now& now, const std::string& message, doubl
   request.set_frequency(static_cast<float>(rate_hz));
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
-      [this, message, respond](const Now&, const BlueyeReply& reply, BlueyeOutput&) {
+      [this, message, respond = std::move(respond)](const Now&, const BlueyeReply& reply,
+                                                    BlueyeOutput&) {
         pb::SetPubFrequencyRep answer;
         const bool parsed = reply.received && parse(reply.payload, answer);
         const std::string trouble =

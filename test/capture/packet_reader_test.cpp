@@ -364,7 +364,7 @@ TEST(PacketReader, GivesAGapUpAfterTenSeconds) {
 TEST(PacketReader, KeepsNoMoreThanItMustBehindAGap) {
   Pcap pcap;
   pcap.add(fromVehicle(0, kA));
-  const int kPackets = 3000;
+  constexpr int kPackets = 3000;
   for (int i = 0; i < kPackets; ++i) {
     pcap.add(fromVehicle(22 + 11 * static_cast<std::uint32_t>(i), kC));
   }

@@ -181,7 +181,7 @@ TEST(TextReader, FindsSentencesAroundALineOfAnyLength) {
 
 TEST(TextReader, CarriesASentenceOverTheEndOfAFullBuffer) {
   for (std::size_t behind = 0; behind < 12; ++behind) {
-    const std::string noise(256 * 1024 - behind, 'x');
+    const std::string noise(256UL * 1024 - behind, 'x');
     EXPECT_EQ(read(noise + "$A,123*00\n1 $B*00\n"), (Lines{"$A,123*00", "$B*00"})) << behind;
   }
 }

@@ -53,7 +53,7 @@ class Loop : public session::BlueyeOutput,
       if (lives && now.steady >= session.nextStep()) session.step(now, *this);
       drone.step(now.utc, *this);
       deliver();
-      if (reconnects) linkAnew();
+      if (reconnects_) linkAnew();
     }
   }
 
@@ -102,12 +102,12 @@ class Loop : public session::BlueyeOutput,
   }
   bool request(const vehicle::Now& at, std::string_view type, std::string_view payload,
                std::chrono::milliseconds timeout) override {
-    if (deadline) return false;
-    deadline = at.steady + timeout;
+    if (deadline_) return false;
+    deadline_ = at.steady + timeout;
     if (link) drone.request("driver", type, payload);
     return true;
   }
-  void reconnect(const vehicle::Now&, const std::string&) override { reconnects = true; }
+  void reconnect(const vehicle::Now&, const std::string&) override { reconnects_ = true; }
 
   void telemetry(const vehicle::Now&, std::string_view, std::string_view) override {}
   void event(const vehicle::Now&, const vehicle::Event&) override {}
@@ -115,13 +115,13 @@ class Loop : public session::BlueyeOutput,
   void note(const std::string&) override {}
 
   void publish(const std::string& name, std::string data) override {
-    if (link) heard.emplace_back(name, std::move(data));
+    if (link) heard_.emplace_back(name, std::move(data));
   }
   void reply(const std::string& peer, const std::string& name, std::string data) override {
     if (peer == "other") {
       other_reply = std::move(data);
     } else if (link) {
-      replies.emplace_back(name, std::move(data));
+      replies_.emplace_back(name, std::move(data));
     }
   }
   void truth(const sim::Truth&) override {}
@@ -136,36 +136,36 @@ class Loop : public session::BlueyeOutput,
 
  private:
   void linkAnew() {
-    reconnects = false;
-    deadline.reset();
-    heard.clear();
-    replies.clear();
+    reconnects_ = false;
+    deadline_.reset();
+    heard_.clear();
+    replies_.clear();
     session.disconnected(now, *this);
     session.connected(now, *this);
   }
 
   void deliver() {
-    while (!heard.empty()) {
-      const auto message = std::move(heard.front());
-      heard.pop_front();
+    while (!heard_.empty()) {
+      const auto message = std::move(heard_.front());
+      heard_.pop_front();
       if (lives) session.telemetry(now, message.first, message.second, *this);
     }
-    while (!replies.empty()) {
-      const auto message = std::move(replies.front());
-      replies.pop_front();
-      deadline.reset();
+    while (!replies_.empty()) {
+      const auto message = std::move(replies_.front());
+      replies_.pop_front();
+      deadline_.reset();
       if (lives) session.reply(now, message.first, message.second, *this);
     }
-    if (lives && deadline && now.steady >= *deadline) {
-      deadline.reset();
+    if (lives && deadline_ && now.steady >= *deadline_) {
+      deadline_.reset();
       session.noReply(now, "no reply", *this);
     }
   }
 
-  std::deque<std::pair<std::string, std::string>> heard;
-  std::deque<std::pair<std::string, std::string>> replies;
-  std::optional<vehicle::SteadyTime> deadline;
-  bool reconnects = false;
+  std::deque<std::pair<std::string, std::string>> heard_;
+  std::deque<std::pair<std::string, std::string>> replies_;
+  std::optional<vehicle::SteadyTime> deadline_;
+  bool reconnects_ = false;
 };
 
 TEST(BlueyeClosedLoop, AnObserverMovesNothing) {

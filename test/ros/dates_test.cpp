@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <ostream>
 #include <string>
 
@@ -77,8 +78,7 @@ class Dates : public testing::TestWithParam<Row>, private session::Output, priva
     parameters.session.dialect = GetParam().dialect;
     parameters.session.listen_only = true;
     parameters.stamp = StampMode::Vehicle;
-    VehicleMessages messages{parameters};
-    messages_ = &messages;
+    messages_.emplace(parameters);
     session::NmeaSession session{parameters.session};
     const vehicle::UtcTime at = GetParam().arrival;
     const vehicle::Now now{vehicle::SteadyTime{at}, at, at};
@@ -108,7 +108,7 @@ class Dates : public testing::TestWithParam<Row>, private session::Output, priva
     stamp_ = stamp;
   }
 
-  VehicleMessages* messages_ = nullptr;
+  std::optional<VehicleMessages> messages_;
   ros::Time stamp_;
 };
 

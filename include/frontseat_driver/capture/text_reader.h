@@ -40,7 +40,7 @@ class TextReader : public Reader {
   ReadCounters counters() const override;
 
  private:
-  static constexpr std::size_t kChunk = 256 * 1024;
+  static constexpr std::size_t kChunk = 256UL * 1024;
 
   bool refill();
   void feed(std::size_t size);

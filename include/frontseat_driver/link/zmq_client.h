@@ -25,7 +25,8 @@ class ZmqClient {
     std::uint16_t telemetry_port = 5555;
     std::uint16_t request_port = 5556;
     std::uint16_t control_port = 5557;
-    /// After so long without all three connections a failure is reported, and they are tried afresh.
+    /// After so long without all three connections a failure is reported, and they are tried
+    /// afresh.
     std::chrono::milliseconds connect_timeout{2000};
     /// Between attempts; doubles from `reconnect_min` to `reconnect_max`. After a loss nothing is
     /// opened again for `reconnect_min`.

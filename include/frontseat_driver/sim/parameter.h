@@ -30,6 +30,7 @@ template <class Config>
 std::vector<ParameterHelp> helpOf(const std::vector<ParameterOf<Config>>& parameters) {
   const Config standard;
   std::vector<ParameterHelp> help;
+  help.reserve(parameters.size());
   for (const auto& parameter : parameters) {
     help.push_back(
         {parameter.name, parameter.meaning, parameter.accepted, parameter.get(standard)});

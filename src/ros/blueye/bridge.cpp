@@ -66,7 +66,7 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
                     : parameters.link.host + ":" + std::to_string(parameters.link.telemetry_port)),
       configured_endpoint_(endpoint_) {
   if (parameters.source == Source::Topic) {
-    onConnected(clocks_.read(), endpoint_);
+    Bridge::onConnected(clocks_.read(), endpoint_);
     session_.connected(clocks_.read(), mute);
     replay_ = node.subscribe(topics::kTelemetryReplay, kReplayQueue, &Bridge::replay, this);
   } else {

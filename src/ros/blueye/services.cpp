@@ -223,8 +223,8 @@ void Services::addAuthority() {
 
 // --- What the drone does by itself ---
 
-Services::Answer Services::control(std::string type, std::string payload, const char* confirmed_by,
-                                   Shows shows, bool repeat) const {
+Services::Answer Services::control(const std::string& type, std::string payload,
+                                   const char* confirmed_by, Shows shows, bool repeat) const {
   return ask(
       [this, type = nameOf(type), payload = std::move(payload), confirmed_by,
        shows = std::move(shows), repeat](const auto& now, auto& out, const Respond& respond) {
@@ -291,7 +291,7 @@ void Services::addControllers() {
 // Sent once: twice might be once too often.
 void Services::addTrigger(const char* name, const char* type, const char* confirmed_by,
                           Shows shows) {
-  advertise<std_srvs::Trigger>(name, [this, type, confirmed_by, shows](auto&) {
+  advertise<std_srvs::Trigger>(name, [this, type, confirmed_by, shows = std::move(shows)](auto&) {
     return control(type, {}, confirmed_by, shows, false);
   });
 }

@@ -54,8 +54,8 @@ class Services {
   template <class Control>
   void addSwitch(const char* name, bool (pb::ControlMode::*state)() const);
   void addTrigger(const char* name, const char* control, const char* confirmed_by, Shows shows);
-  Answer control(std::string type, std::string payload, const char* confirmed_by, Shows shows,
-                 bool repeat) const;
+  Answer control(const std::string& type, std::string payload, const char* confirmed_by,
+                 Shows shows, bool repeat) const;
   Answer request(const std::string& type, const std::string& payload,
                  std::chrono::milliseconds timeout) const;
   Answer loadMission(const std::string& json) const;

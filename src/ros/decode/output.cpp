@@ -6,7 +6,7 @@
 namespace frontseat_driver::decode {
 
 void TextSink::endLine() {
-  constexpr std::size_t kEnough = 64 * 1024;
+  constexpr std::size_t kEnough = 64UL * 1024;
   text_ += '\n';
   if (text_.size() >= kEnough) flush();
 }

@@ -287,6 +287,7 @@ namespace {
 template <class Row>
 std::vector<std::string> names(const std::vector<Row>& rows) {
   std::vector<std::string> all;
+  all.reserve(rows.size());
   for (const Row& row : rows) all.push_back(row.name);
   return all;
 }

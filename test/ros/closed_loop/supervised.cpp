@@ -122,7 +122,8 @@ void Supervised::hear(std::string_view line) {
   if (formatter == "ACK") return hearAck(Fields{line});
   const auto hook = options_.control_hook;
   if (formatter == "CTL" && hook == ControlHook::Ctl) {
-    const std::string_view word = Fields{line}.at[2];
+    const Fields fields{line};
+    const std::string_view word = fields.at[2];
     if (word == "1" || word == "0") permissionHeard(word == "1");
   } else if (formatter == "MIS" && hook == ControlHook::Mis) {
     permissionHeard(Fields{line}.at[3].substr(0, 7) == "Running");
