@@ -72,7 +72,7 @@ void add(const std::string& name, std::size_t (*run)(std::string_view), const Sa
   benchmark::RegisterBenchmark(name.c_str(), measure, run, sample)->Unit(benchmark::kMillisecond);
 }
 
-[[maybe_unused]] const bool added = [] {
+[[maybe_unused]] const bool kAdded = [] {
   const Sample mix = vehicleMix(kSentences);
   add("decode/line_ends", lineEnds, mix);
   add("decode/byte_wise_checksum", byteWiseChecksum, mix);

@@ -145,12 +145,12 @@ struct Navigation {
 
 template <class Run>
 void measure(benchmark::State& state, Run run) {
-  static const std::vector<double> times_s = values(0.0, 86399.0);
-  static const std::vector<double> numbers = values(0.0, 359.0);
+  static const std::vector<double> kTimes_s = values(0.0, 86399.0);
+  static const std::vector<double> kNumbers = values(0.0, 359.0);
   const std::size_t before = allocations();
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(run(times_s[i % kValues], numbers[i % kValues]));
+    benchmark::DoNotOptimize(run(kTimes_s[i % kValues], kNumbers[i % kValues]));
     ++i;
   }
   state.counters["allocations"] = static_cast<double>(allocations() - before) / double(i);
@@ -178,7 +178,7 @@ void add() {
   benchmark::RegisterBenchmark((name + "/snprintf").c_str(), print<Sentence>);
 }
 
-[[maybe_unused]] const bool added = [] {
+[[maybe_unused]] const bool kAdded = [] {
   add<Behavior>();
   add<Helm>();
   add<Course>();

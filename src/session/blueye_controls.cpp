@@ -99,7 +99,7 @@ void HeldControls::step(const vehicle::Now& now, BlueyeOutput& out) {
 // What was not taken counts as not sent.
 void HeldControls::step(const vehicle::Now& now, std::size_t kind, BlueyeOutput& out) {
   Held& held = held_[kind];
-  const auto sendOne = [&](const DroneCommand& command) {
+  const auto send_one = [&](const DroneCommand& command) {
     if (!send(now, command, out)) return false;
     held.resting = isZero(command);
     held.next = std::max(held.next, now.steady) + kLeastPeriod;
@@ -107,12 +107,12 @@ void HeldControls::step(const vehicle::Now& now, std::size_t kind, BlueyeOutput&
   };
   if (held.slot.stale(now.steady)) end(held, now.steady);
   if (held.zeros > 0 && now.steady >= held.zero_due) {
-    if (sendOne(zeroOf(kind))) --held.zeros;
+    if (send_one(zeroOf(kind))) --held.zeros;
     held.zero_due = now.steady + (held.zeros == kZeros ? kRetry : kZeroPeriod);
   }
   const DroneCommand* due = held.slot.due(now.steady);
   if (due == nullptr) return;
-  if (sendOne(*due)) {
+  if (send_one(*due)) {
     held.slot.sent(now.steady);
     held.slot.putOff(std::max(held.slot.nextDue(), held.next));
   } else {

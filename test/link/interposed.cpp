@@ -22,8 +22,8 @@ Function* original(const char* name) {
 }
 
 int resolve(const char* node, const char* service, const addrinfo* hints, addrinfo** result) {
-  static const auto system = original<decltype(getaddrinfo)>("getaddrinfo");
-  return system(node, service, hints, result);
+  static const auto kSystem = original<decltype(getaddrinfo)>("getaddrinfo");
+  return kSystem(node, service, hints, result);
 }
 
 int resolveTwo(const char* service, const addrinfo* hints, addrinfo** result) {
@@ -49,13 +49,13 @@ extern "C" int getaddrinfo(const char* node, const char* service, const addrinfo
 }
 
 extern "C" int connect(int fd, const sockaddr* address, socklen_t size) {
-  static const auto system = original<int(int, const sockaddr*, socklen_t)>("connect");
+  static const auto kSystem = original<int(int, const sockaddr*, socklen_t)>("connect");
   const int on = 1;
   if (to_itself && (setsockopt(fd, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0 ||
                     bind(fd, address, size) != 0)) {
     return -1;
   }
-  return system(fd, address, size);
+  return kSystem(fd, address, size);
 }
 
 namespace frontseat_driver::link::testing {

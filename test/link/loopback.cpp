@@ -94,8 +94,8 @@ std::size_t openFileDescriptors() { return entries("/proc/self/fd"); }
 
 std::size_t threads() {
   // The run-time library of a sanitizer begins a thread of its own together with the first one.
-  static const bool begun = (std::thread([] {}).join(), true);
-  return begun ? entries("/proc/self/task") : 0;
+  static const bool kBegun = (std::thread([] {}).join(), true);
+  return kBegun ? entries("/proc/self/task") : 0;
 }
 
 bool hasIpv6() {

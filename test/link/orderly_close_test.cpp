@@ -20,10 +20,10 @@ const std::string kLast = "$PYDIR,0.000,0.000*00\r\n";
 /// Telemetry until the socket takes no more, up to 1 MiB, since a reader may be as fast; 0, or
 /// errno if the connection is broken.
 int flood(const Socket& socket) {
-  static const std::string telemetry(8192, 't');
+  static const std::string kTelemetry(8192, 't');
   for (int i = 0; i < 128; ++i) {
     const int flags = MSG_DONTWAIT | MSG_NOSIGNAL;
-    if (send(socket.fd(), telemetry.data(), telemetry.size(), flags) > 0) continue;
+    if (send(socket.fd(), kTelemetry.data(), kTelemetry.size(), flags) > 0) continue;
     return errno == EAGAIN ? 0 : errno;
   }
   return 0;
@@ -68,7 +68,7 @@ TEST(OrderlyClose, VehicleThatFloodsReadsTheLastSentenceThenTheEnd) {
   int in_order = 0;
   for (int i = 0; i < 20; ++i) {
     const Received heard = closeUnderFlood(5, milliseconds(1), 64);
-    EXPECT_EQ(heard.bytes, std::string(5 * 75, 's') + kLast);
+    EXPECT_EQ(heard.bytes, std::string(375, 's') + kLast);
     if (heard.error == 0) ++in_order;
   }
   // It reads within some 10 ms; on a busy machine it may now and then take longer than the limit.
@@ -77,7 +77,7 @@ TEST(OrderlyClose, VehicleThatFloodsReadsTheLastSentenceThenTheEnd) {
 
 TEST(OrderlyClose, VehicleSlowerThanTheLimitStillReadsTheLastSentence) {
   const Received heard = closeUnderFlood(5, milliseconds(20), 32);
-  EXPECT_EQ(heard.bytes, std::string(5 * 75, 's') + kLast);
+  EXPECT_EQ(heard.bytes, std::string(375, 's') + kLast);
 }
 
 TEST(OrderlyClose, UnreadBytesCauseNoReset) {

@@ -71,13 +71,13 @@ bool imu(BlueyeCore& core, Message& message, double coarse, bool magnetometer) {
 
 bool attitude(BlueyeCore& core, bp::AttitudeTel& message) {
   const VehicleState& state = core.rov.state();
-  const auto degreesOf = [&](double rad) {
+  const auto in_degrees = [&](double rad) {
     return toFloat(degrees(wrapPi(rad + noise(core, kAttitudeNoise_rad))));
   };
   bp::Attitude& out = *message.mutable_attitude();
-  out.set_roll(degreesOf(state.roll_rad));
-  out.set_pitch(degreesOf(state.pitch_rad));
-  out.set_yaw(degreesOf(core.compassHeading()));
+  out.set_roll(in_degrees(state.roll_rad));
+  out.set_pitch(in_degrees(state.pitch_rad));
+  out.set_yaw(in_degrees(core.compassHeading()));
   return true;
 }
 

@@ -103,8 +103,8 @@ std::string devicesOf(const Config& config) {
 }
 
 /// One of two words, which sets a flag.
-Parameter eitherOr(std::string name, bool& (*in_config)(Config&), std::string when_true,
-                   std::string when_false, std::string meaning) {
+Parameter eitherOr(std::string name, bool& (*in_config)(Config&), const std::string& when_true,
+                   const std::string& when_false, std::string meaning) {
   return {std::move(name), std::move(meaning), when_true + " or " + when_false,
           [=](Config& config, const std::string& text) {
             if (text != when_true && text != when_false) return false;

@@ -22,6 +22,7 @@ std::vector<PlanePoint> surveyLines(const std::vector<PlanePoint>& polygon, doub
   const double sin_heading = std::sin(heading_rad);
   const double cos_heading = std::cos(heading_rad);
   std::vector<Rotated> corners;
+  corners.reserve(polygon.size());
   for (const PlanePoint& corner : polygon) {
     corners.push_back({cos_heading * corner.north_m + sin_heading * corner.east_m,
                        -sin_heading * corner.north_m + cos_heading * corner.east_m});
