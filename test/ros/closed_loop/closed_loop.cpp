@@ -161,7 +161,7 @@ void ClosedLoop::lose() {
 
 // Three sentences.
 bool ClosedLoop::congested() const {
-  return link.congested || (link.room > 0 && under_way_ > 3 * 80);
+  return link.congested || (link.room > 0 && under_way_ > 3UL * 80);
 }
 
 bool ClosedLoop::send(const vehicle::Now&, std::string_view sentence) {

@@ -124,7 +124,7 @@ const TruthCheck::Moment* TruthCheck::momentOf(std::string_view time) const {
   const auto written = milliseconds(time);
   if (!written) return nullptr;
   for (auto moment = moments_.rbegin(); moment != moments_.rend(); ++moment) {
-    if (moment->day_ms == *written % (24 * 3600 * 1000)) return &*moment;
+    if (moment->day_ms == *written % (24L * 3600 * 1000)) return &*moment;
   }
   return nullptr;
 }
