@@ -38,7 +38,7 @@ std::string outside(const char* name, double value, double low, double high) {
 
 Input::Input(ros::NodeHandle node, std::string name, const Parameters& parameters,
              session::BlueyeSession& session, const protocol::BlueyeCatalogue& catalogue, Post post)
-    : node_(std::move(node)),
+    : node_(node),
       name_(std::move(name)),
       parameters_(parameters),
       session_(session),

@@ -58,7 +58,7 @@ geometry_msgs::TransformStamped halfTurn(const ros::Time& stamp, const std::stri
 
 Publisher::Publisher(ros::NodeHandle node, const Options& options,
                      const protocol::BlueyeCatalogue& catalogue, Warn warn, Notify notify)
-    : node_(std::move(node)),
+    : node_(node),
       options_(options),
       catalogue_(catalogue),
       warn_(std::move(warn)),

@@ -96,7 +96,7 @@ std::string withAutoContinue(const std::string& json, pb::Mission& mission) {
 Services::Services(ros::NodeHandle node, const Parameters& parameters,
                    session::BlueyeSession& session, const Publisher& publisher,
                    const protocol::BlueyeCatalogue& catalogue, Post post)
-    : node_(std::move(node)),
+    : node_(node),
       timeout_(parameters.session.request_timeout),
       control_timeout_(parameters.session.control_timeout),
       session_(session),

@@ -982,7 +982,7 @@ TEST(BlueyeSession, ConfirmsAControlByTelemetryAndRepeatsItUntilThen) {
   ScriptedDrone drone;
   drone.giveControl();
   std::optional<std::string> answer;
-  const auto turnOn = [&] {
+  const auto turn_on = [&] {
     ConfirmedControls::Control control;
     control.type = "blueye.protocol.AutoDepthCtrl";
     control.repeat = true;
@@ -995,7 +995,7 @@ TEST(BlueyeSession, ConfirmsAControlByTelemetryAndRepeatsItUntilThen) {
     control.respond = [&](const std::string& refusal) { answer = refusal; };
     drone.session.control(drone.now, std::move(control), drone);
   };
-  turnOn();
+  turn_on();
   drone.run(1100ms);
   EXPECT_EQ(drone.controlsOf("AutoDepthCtrl").size(), 3u);
   EXPECT_FALSE(answer);
@@ -1007,7 +1007,7 @@ TEST(BlueyeSession, ConfirmsAControlByTelemetryAndRepeatsItUntilThen) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(*answer, "");
   answer.reset();
-  turnOn();
+  turn_on();
   drone.run(2100ms);
   ASSERT_TRUE(answer);
   EXPECT_THAT(*answer, HasSubstr("did not show it"));

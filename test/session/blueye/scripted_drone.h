@@ -43,9 +43,9 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
 
   bool request(const vehicle::Now& at, std::string_view type, std::string_view payload,
                std::chrono::milliseconds timeout) override {
-    if (under_way) return false;
+    if (under_way_) return false;
     requests.push_back({at.steady, shortName(type), std::string{payload}});
-    under_way = Waiting{requests.back(), at.steady + timeout};
+    under_way_ = Waiting{requests.back(), at.steady + timeout};
     return true;
   }
 
@@ -85,13 +85,13 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
 
   void turn() {
     if (now.steady >= session.nextStep()) session.step(now, *this);
-    if (!under_way) return;
+    if (!under_way_) return;
     if (answers && (held_request == 0 || requests.size() != held_request)) {
-      const Sent request = under_way->request;
-      under_way.reset();
+      const Sent request = under_way_->request;
+      under_way_.reset();
       answer(request);
-    } else if (now.steady >= under_way->deadline) {
-      under_way.reset();
+    } else if (now.steady >= under_way_->deadline) {
+      under_way_.reset();
       session.noReply(now, "no reply", *this);
     }
   }
@@ -102,7 +102,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   }
 
   void loseLink() {
-    under_way.reset();
+    under_way_.reset();
     session.disconnected(now, *this);
     registry.clear();
     in_control = 0;
@@ -283,7 +283,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
     session.reply(now, "google.protobuf.Empty", {}, *this);
   }
 
-  std::optional<Waiting> under_way;
+  std::optional<Waiting> under_way_;
 };
 
 }  // namespace frontseat_driver::session

@@ -165,7 +165,7 @@ TEST(AquaTroll, ConvertsItsUnitsAndCanBeDisconnected) {
   deck.connect();
   deck.push(0, 0, 1, 0);
   deck.run(12.0);
-  const auto depthOf = [&] {
+  const auto depth_of = [&] {
     const auto message = deck.latest<bp::AquaTrollSensorParametersTel>();
     for (const auto& sensor : message.sensors().sensors()) {
       for (const auto& block : sensor.parameter_blocks()) {
@@ -176,8 +176,8 @@ TEST(AquaTroll, ConvertsItsUnitsAndCanBeDisconnected) {
   };
   deck.push(0, 0, 0, 0);
   deck.run(20.0);
-  EXPECT_EQ(depthOf().units_id(), bp::AQUA_TROLL_UNIT_METERS);
-  EXPECT_NEAR(depthOf().measured_value(), deck.state().depth_m, 0.05);
+  EXPECT_EQ(depth_of().units_id(), bp::AQUA_TROLL_UNIT_METERS);
+  EXPECT_NEAR(depth_of().measured_value(), deck.state().depth_m, 0.05);
   bp::SetAquaTrollParameterUnitCtrl unit;
   const auto sensors = deck.latest<bp::AquaTrollSensorParametersTel>().sensors();
   unit.mutable_parameter_info()->set_sensor_id(sensors.sensors(1).sensor_id());
@@ -185,7 +185,7 @@ TEST(AquaTroll, ConvertsItsUnitsAndCanBeDisconnected) {
   unit.mutable_parameter_info()->set_unit_id(bp::AQUA_TROLL_UNIT_FEET);
   deck.tell(unit);
   deck.run(0.1);
-  EXPECT_NEAR(depthOf().measured_value(), deck.state().depth_m / 0.3048, 0.1);
+  EXPECT_NEAR(depth_of().measured_value(), deck.state().depth_m / 0.3048, 0.1);
   bp::SetAquaTrollConnectionStatusCtrl off;
   deck.tell(off);
   deck.run(0.1);
