@@ -101,8 +101,8 @@ std::optional<nmea::TimeOfDay> timeOfDay(const Fields& in, std::size_t index) {
   const auto value = in.number(index);
   if (!value) return std::nullopt;
   const auto whole = static_cast<long>(*value);
-  const double seconds =
-      static_cast<double>(whole / 10000 * 3600 + whole / 100 % 100 * 60) + std::fmod(*value, 100.0);
+  const long whole_minutes = whole / 10000 * 60 + whole / 100 % 100;
+  const double seconds = 60.0 * static_cast<double>(whole_minutes) + std::fmod(*value, 100.0);
   return nmea::TimeOfDay{std::lround(seconds * 1e6)};
 }
 
