@@ -43,10 +43,6 @@ nanoseconds tickFor(const FrontseatConfig& config, const std::vector<Rate>& rate
 
 UtcTime wholeMilliseconds(UtcTime time) { return std::chrono::floor<milliseconds>(time); }
 
-double overGround(const VehicleState& state) {
-  return std::hypot(state.velocity_east_m_s, state.velocity_north_m_s);
-}
-
 /// Volatile, because GCC 12 drops two such conversions that stand side by side.
 double throughFloat(double value) {
   const volatile float narrow = static_cast<float>(value);
@@ -171,7 +167,7 @@ void Frontseat::applyQuirks(protocol::NavigationUpdate& navigation,
     navigation.position = nmea::LatLon{throughFloat(navigation.position->latitude_deg),
                                        throughFloat(navigation.position->longitude_deg)};
   }
-  if (quirks.course_heading && overGround(state) > kCourseSpeed_m_s) {
+  if (quirks.course_heading && speedOverGround(state) > kCourseSpeed_m_s) {
     const double course = std::atan2(state.velocity_east_m_s, state.velocity_north_m_s);
     navigation.heading_deg = wrap360(degrees(course));
   }
@@ -235,7 +231,7 @@ void Frontseat::broadcast(std::uint32_t bits, std::string_view sentence) {
 
 void Frontseat::queue(Client& client, std::string_view sentence) {
   if (!rewrites_) return client.queue(sentence);
-  client.queue(rewrite(sentence, config_.quirks, overGround(model().state()) < kStanding_m_s));
+  client.queue(rewrite(sentence, config_.quirks, speedOverGround(model().state()) < kStanding_m_s));
 }
 
 void Frontseat::take(Client& client, std::string_view bytes) {

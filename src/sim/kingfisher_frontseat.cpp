@@ -25,10 +25,6 @@ double course(const VehicleState& state) {
   return wrap360(degrees(std::atan2(state.velocity_east_m_s, state.velocity_north_m_s)));
 }
 
-double overGround(const VehicleState& state) {
-  return std::hypot(state.velocity_east_m_s, state.velocity_north_m_s);
-}
-
 /// The calendar day of a time, by the algorithm of H. Hinnant, "chrono-compatible low-level date
 /// algorithms", civil_from_days.
 nmea::Date dateOf(UtcTime utc) {
@@ -142,7 +138,7 @@ void KingfisherFrontseat::sendMinimumData() {
   message.valid = hasFix();
   if (message.valid) {
     message.position = read.position;
-    message.speed_kn = overGround(read.state) / kKnot_m_s;
+    message.speed_kn = speedOverGround(read.state) / kKnot_m_s;
     message.course_deg = course(read.state);
   }
   broadcast(kAll, gps_talker_, message);
@@ -166,8 +162,8 @@ void KingfisherFrontseat::sendCourseAndSpeed() {
   const VehicleState& state = reading().state;
   gps::CourseAndSpeed message;
   message.course_true_deg = course(state);
-  message.speed_kn = overGround(state) / kKnot_m_s;
-  message.speed_km_h = overGround(state) * 3.6;
+  message.speed_kn = speedOverGround(state) / kKnot_m_s;
+  message.speed_km_h = speedOverGround(state) * 3.6;
   broadcast(kAll, gps_talker_, message);
 }
 

@@ -8,7 +8,7 @@ namespace frontseat_driver::sim {
 namespace {
 
 constexpr double kReached_m = 3.0;
-constexpr double kLookahead_m = 8.0;
+constexpr double kLineLookahead_m = 8.0;
 constexpr double kSurfaced_m = 0.3;
 constexpr double kTransitSpeed_m_s = 1.2;
 constexpr double kAscentPitch_deg = 25.0;
@@ -50,7 +50,7 @@ const char* words(Mission::State state) {
 Setpoint along(const Line& line, const VehicleState& state) {
   Setpoint setpoint;
   setpoint.horizontal_mode = Setpoint::HorizontalMode::Heading;
-  setpoint.horizontal_deg = headingAlong(line, state, kLookahead_m);
+  setpoint.horizontal_deg = headingAlong(line, state, kLineLookahead_m);
   setpoint.vertical_mode = Setpoint::VerticalMode::Depth;
   setpoint.speed_mode = Setpoint::SpeedMode::Speed;
   setpoint.speed = kTransitSpeed_m_s;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "frontseat_driver/nmea/values.h"
 
 namespace frontseat_driver::sim {
@@ -36,5 +38,10 @@ struct VehicleState {
   double stack_v = 0.0;    ///< battery voltage under load
   double energy_wh = 0.0;  ///< left in the battery
 };
+
+/// Level, in m/s.
+inline double speedOverGround(const VehicleState& state) {
+  return std::hypot(state.velocity_east_m_s, state.velocity_north_m_s);
+}
 
 }  // namespace frontseat_driver::sim
