@@ -31,7 +31,7 @@ demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHI
 
 test: ## builds with warnings as errors and runs all tests; closes with "N passed, M failed"
 	@scripts/install_dependencies build test
-	@TARGETS="all tests" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_WARNINGS_AS_ERRORS=ON
+	@TARGETS="all tests" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_WARNINGS_AS_ERRORS=ON -DFRONTSEAT_QUICK_BUILD=ON
 	@scripts/run_tests
 
 replay-test: ## records ten-minute missions in real time and replays them at 1x, 10x and unlimited rate
