@@ -204,8 +204,9 @@ class Soak:
             for fault in self.proxy.faults:
                 axis.axvspan((fault.began - self.began) / 60.0, (fault.ended - self.began) / 60.0,
                              color="tab:red", alpha=0.15, linewidth=0)
-        axes[1].plot(minutes, [usage.files for _, usage, _ in self.samples], "--")
-        axes[1].legend(["threads", "open files"])
+        threads = axes[1].get_lines()[0]
+        files, = axes[1].plot(minutes, [usage.files for _, usage, _ in self.samples], "--")
+        axes[1].legend([threads, files], ["threads", "open files"])
         axes[-1].set_xlabel("minutes; faults are shaded")
         figure.savefig(self.report + ".png", dpi=80, bbox_inches="tight")
 
