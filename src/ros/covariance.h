@@ -2,12 +2,16 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 
 #include "convert.h"
 
 /// Covariance matrices in messages, row by row, with only their diagonal set.
 namespace frontseat_driver::ros_layer {
+
+/// What a message says where nothing is known and it has no variance to tell so.
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Variances about or along x, y and z.
 using Variances = std::array<double, 3>;

@@ -1,5 +1,4 @@
 #include <cstdint>
-#include <limits>
 
 #include "convert.h"
 #include "covariance.h"
@@ -9,7 +8,6 @@ namespace frontseat_driver::ros_layer {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kGpsFrame = "gps_link";
 
 /// NMEA 0183, GGA: 1 GPS, 2 differential, 3 PPS, 4 and 5 RTK, 6 estimated, 7 manual, 8 simulated. 9

@@ -10,7 +10,6 @@ namespace frontseat_driver::ros_layer {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr int kSandsharkLeapSeconds = 0;
 constexpr int kKingfisherLeapSeconds = 18;
 constexpr const char* kAltimeterFrame = "altimeter_link";

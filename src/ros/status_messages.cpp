@@ -3,6 +3,7 @@
 #include <string>
 
 #include "convert.h"
+#include "covariance.h"
 #include "frontseat_driver/vehicle/date_resolution.h"
 #include "message_builder.h"
 
@@ -10,7 +11,6 @@ namespace frontseat_driver::ros_layer {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kNoFrame = "";
 
 float toFloat(const std::optional<double>& value) {

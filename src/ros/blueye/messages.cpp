@@ -13,7 +13,6 @@ namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTeslaPerMicrotesla = 1e-6;
 // A circle with radius 2.4477 sigma holds 95 percent in two axes: sqrt(-2 ln 0.05).
