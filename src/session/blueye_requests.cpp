@@ -47,10 +47,16 @@ vehicle::SteadyTime BlueyeRequests::nextStep() const {
   return under_way_ || waiting_.empty() ? vehicle::SteadyTime::max() : retry_at_;
 }
 
-void BlueyeRequests::failAll(const vehicle::Now& now, const std::string& reason,
-                             BlueyeOutput& out) {
-  under_way_ = false;
-  for (std::deque<Waiting> all = std::exchange(waiting_, {}); !all.empty(); all.pop_front()) {
+void BlueyeRequests::failAll(const vehicle::Now& now, const std::string& reason, BlueyeOutput& out,
+                             std::string_view but) {
+  std::deque<Waiting> all = std::exchange(waiting_, {});
+  if (under_way_ && all.front().type == but) {
+    waiting_.push_back(std::move(all.front()));
+    all.pop_front();
+  } else {
+    under_way_ = false;
+  }
+  for (; !all.empty(); all.pop_front()) {
     all.front().respond(now, {false, {}, {}, reason}, out);
   }
 }

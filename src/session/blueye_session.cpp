@@ -159,6 +159,7 @@ void BlueyeSession::disconnected(const Now& now, BlueyeOutput& out) {
   register_due_ = SteadyTime::max();
   ask_clients_due_ = SteadyTime::max();
   drone_uptime_.reset();
+  lists_clients_ = false;
   mission_ = State::Unknown;
   goodbye_said_ = true;
   loseRegistration(now);
@@ -243,6 +244,7 @@ void BlueyeSession::unregister(const Now& now, std::uint32_t id, Then then, Blue
                                                     BlueyeOutput& o) {
         registering_ = false;
         if (leaving_) goodbye_said_ = true;
+        if (leaving_ && reply.received) loseRegistration(at);  // who is next must not be stopped
         // Nothing of what was to follow may wait for the next connection.
         if (!connected_ || leaving_) return;
         pb::DisconnectClientRep message;
@@ -259,29 +261,35 @@ void BlueyeSession::setUp(const Now& now, BlueyeOutput& out) {
 }
 
 void BlueyeSession::askForTelemetry(const Now& now, const std::string& message, BlueyeOutput& out,
-                                    Then unanswered) {
+                                    Heard heard) {
   pb::GetTelemetryReq request;
   request.set_message_type(message);
   requests_.add(
       now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
-      [this, asked = told_, unanswered = std::move(unanswered)](
-          const Now& at, const BlueyeReply& reply, BlueyeOutput& o) {
-        if (!reply.received && unanswered) unanswered(at, o);
+      [this, asked = told_, heard = std::move(heard)](const Now& at, const BlueyeReply& reply,
+                                                      BlueyeOutput& o) {
         pb::GetTelemetryRep answer;
-        if (!reply.received || !parse(reply.payload, answer)) return;
+        if (!reply.received || !parse(reply.payload, answer)) answer.Clear();
         const std::string& url = answer.payload().type_url();
-        if (url.empty()) return;  // none yet
-        hear(at, std::string_view{url}.substr(url.rfind('/') + 1), answer.payload().value(), asked,
-             o);
+        const std::string_view type = std::string_view{url}.substr(url.rfind('/') + 1);
+        if (!url.empty()) hear(at, type, answer.payload().value(), asked, o);  // else none yet
+        if (heard) heard(at, reply.received, o);
       },
       out);
 }
 
+// One question at a time: the drone may be slow, and its telemetry fast.
 void BlueyeSession::askForClients(const Now& now, BlueyeOutput& out) {
   ask_clients_due_ = SteadyTime::max();
-  askForTelemetry(now, "ConnectedClientsTel", out, [this](const Now& at, BlueyeOutput&) {
-    if (connected_ && !silent()) ask_clients_due_ = at.steady + kRegisterAgain;
-  });
+  ask_clients_again_ = asking_clients_;
+  if (std::exchange(asking_clients_, true)) return;
+  const auto heard = [this](const Now& at, bool received, BlueyeOutput& o) {
+    asking_clients_ = false;
+    if (!connected_ || silent()) return;
+    if (!received) ask_clients_due_ = at.steady + kRegisterAgain;
+    if (received && ask_clients_again_) askForClients(at, o);
+  };
+  askForTelemetry(now, "ConnectedClientsTel", out, heard);
 }
 
 void BlueyeSession::askForRate(const Now& now, const std::string& message, double rate_hz,
@@ -333,7 +341,9 @@ void BlueyeSession::hearClients(const Now& now, std::string_view payload,
   pb::ConnectedClientsTel message;
   if (!parse(payload, message)) return malformed();
   const std::uint32_t in_control = message.client_id_in_control();
-  const bool names_us = message.connected_clients().empty() || names(message, id_);
+  // A drone that lists nobody may be one that never does.
+  const bool lists = lists_clients_ || !message.connected_clients().empty();
+  const bool names_us = !lists || names(message, id_);
   const bool gives_control = registered() && in_control == id_ && names_us;
   const bool news = in_control != id_in_control_ || !names_us;
   if (!asked) {
@@ -361,6 +371,7 @@ void BlueyeSession::learnClients(const Now& now, const Message& message, Asked a
     const pb::ClientInfo& info = client.client_info();
     clients_.push_back({client.client_id(), info.name(), info.type(), info.is_observer()});
   }
+  lists_clients_ = lists_clients_ || !clients_.empty();
   const std::uint32_t in_control = message.client_id_in_control();
   const bool gains = registered() && in_control == id_ && !inControl();
   const bool contradicted = asked != told_ && told_in_control_ != in_control;
@@ -746,7 +757,9 @@ vehicle::SteadyTime BlueyeSession::nextStep() const {
 void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   const bool in_control = inControl() && !options_.listen_only;
   leaving_ = true;  // first, so that no answer begins anything anew
-  requests_.failAll(now, kLeaving, out);
+  // The goodbye of a release is under way: its answer counts.
+  const std::string goodbye = releasing_ ? pb::DisconnectClientReq{}.GetTypeName() : "";
+  requests_.failAll(now, kLeaving, out, goodbye);
   confirmed_.failAll(kLeaving);
   register_due_ = SteadyTime::max();
   ask_clients_due_ = SteadyTime::max();

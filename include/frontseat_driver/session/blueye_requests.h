@@ -60,7 +60,9 @@ class BlueyeRequests {
   /// SteadyTime::max() while there is nothing to send.
   vehicle::SteadyTime nextStep() const;
 
-  void failAll(const vehicle::Now& now, const std::string& reason, BlueyeOutput& out);
+  /// Answers all, but not the one under way if it is of the type `but`.
+  void failAll(const vehicle::Now& now, const std::string& reason, BlueyeOutput& out,
+               std::string_view but = {});
 
  private:
   struct Waiting {

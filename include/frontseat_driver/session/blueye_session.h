@@ -182,6 +182,7 @@ class BlueyeSession {
   /// How many ConnectedClientsTel had been heard when a question was asked.
   using Asked = std::uint64_t;
   using Then = std::function<void(const vehicle::Now&, BlueyeOutput&)>;
+  using Heard = std::function<void(const vehicle::Now&, bool received, BlueyeOutput&)>;
 
   void ping(const vehicle::Now& now, BlueyeOutput& out);
   void registerClient(const vehicle::Now& now, bool observer, Then then, BlueyeOutput& out);
@@ -190,7 +191,7 @@ class BlueyeSession {
   void askForRate(const vehicle::Now& now, const std::string& message, double rate_hz,
                   Respond respond, BlueyeOutput& out);
   void askForTelemetry(const vehicle::Now& now, const std::string& message, BlueyeOutput& out,
-                       Then unanswered = {});
+                       Heard heard = {});
   void askForClients(const vehicle::Now& now, BlueyeOutput& out);
   void askForConfirmations(const vehicle::Now& now, BlueyeOutput& out);
   void continueTaking(const vehicle::Now& now, BlueyeOutput& out);
@@ -240,7 +241,10 @@ class BlueyeSession {
   bool as_observer_ = true;
   std::uint32_t id_in_control_ = 0;
   std::vector<BlueyeClient> clients_;
+  bool lists_clients_ = false;  ///< it has listed some
   SteadyTime ask_clients_due_ = SteadyTime::max();
+  bool asking_clients_ = false;
+  bool ask_clients_again_ = false;     ///< something was told since the question
   Asked told_ = 0;                     ///< ConnectedClientsTel heard
   std::uint32_t told_in_control_ = 0;  ///< by the last of them
   SteadyTime registered_since_{};

@@ -552,6 +552,28 @@ TEST(BlueyeSession, RegistersAgainAsAnObserverWhenSomebodyDisconnectsIt) {
   EXPECT_TRUE(drone.registry.back().observer);
 }
 
+TEST(BlueyeSession, RegistersAgainWhenTheDroneHasNoClientsLeft) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(2s);
+  drone.removeClient(drone.session.id());
+  drone.tellClients();
+  EXPECT_FALSE(drone.session.inControl());
+  drone.run(2s);
+  ASSERT_EQ(drone.registry.size(), 1u);
+  EXPECT_EQ(drone.registry[0].id, drone.session.id());
+}
+
+TEST(BlueyeSession, ADroneThatListsNobodyKeepsItsClient) {
+  ScriptedDrone drone;
+  drone.lists_clients = false;
+  drone.giveControl();
+  drone.run(2s);
+  drone.tellClients();
+  EXPECT_TRUE(drone.session.inControl());
+  EXPECT_EQ(drone.registry.size(), 1u);
+}
+
 TEST(BlueyeSession, AsksWhenTelemetryMayBeOlderThanTheLastReply) {
   ScriptedDrone drone;
   const auto app = drone.addClient("Blueye App");
@@ -645,6 +667,23 @@ TEST(BlueyeSession, ARegistrationThatIsOlderThanTheLossOfControlDoesNotBringIt) 
   EXPECT_EQ(drone.session.id(), app + 1);
   EXPECT_FALSE(drone.session.inControl());
   EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+// A caller's request would wait behind them.
+TEST(BlueyeSession, AsksOneQuestionAtATimeHoweverFastTelemetryIs) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.in_control = drone.addClient("Blueye App");
+  drone.hold();
+  for (int i = 0; i < 50; ++i) {
+    drone.tellClients();
+    drone.run(10ms);
+  }
+  drone.letGo();
+  drone.requests.clear();
+  drone.run(5ms);
+  EXPECT_LE(drone.requests.size(), 1u);
+  EXPECT_FALSE(drone.session.inControl());
 }
 
 TEST(BlueyeSession, TelemetryAloneGivesNoControl) {
@@ -910,6 +949,40 @@ TEST(BlueyeSession, LeavesWithZeroMotionAndGoodbye) {
   drone.run(900ms);
   EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
   EXPECT_TRUE(drone.isAtRest());
+}
+
+TEST(BlueyeSession, SendsNoZeroAfterItsGoodbye) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.command(forward());
+  drone.link_takes = false;
+  drone.session.leave(drone.now, drone);
+  drone.run(10ms);  // the goodbye is answered: another client may be in control
+  drone.link_takes = true;
+  drone.controls.clear();
+  drone.run(100ms);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_TRUE(drone.session.hasLeft());
+}
+
+TEST(BlueyeSession, SendsNoZeroAfterTheGoodbyeOfAReleaseEither) {
+  ScriptedDrone drone;
+  Answers answers;
+  drone.giveControl();
+  drone.command(forward());
+  drone.link_takes = false;
+  drone.hold();
+  drone.session.releaseControl(drone.now, answers.keep(), drone);
+  drone.run(5ms);
+  drone.session.leave(drone.now, drone);
+  EXPECT_EQ(answers.all.size(), 1u);
+  drone.letGo();
+  drone.run(10ms);
+  drone.link_takes = true;
+  drone.controls.clear();
+  drone.run(100ms);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_TRUE(drone.session.hasLeft());
 }
 
 TEST(BlueyeSession, LeavesAtOnceWhenItIsNotRegistered) {

@@ -196,6 +196,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   bool link_takes = true;
   bool keeps_control = false;  ///< whoever is in control stays so, whatever is asked
   bool took_control = false;
+  bool lists_clients = true;
   bool echoes = false;  ///< every request is answered with `echo`
   std::pair<std::string, std::string> echo;
   std::uint32_t last_id = 0;
@@ -234,6 +235,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   template <class Message>
   Message fill(Message message) const {
     message.set_client_id_in_control(in_control);
+    if (!lists_clients) return message;
     for (const BlueyeClient& client : registry) {
       auto& one = *message.add_connected_clients();
       one.set_client_id(client.id);
