@@ -76,6 +76,7 @@ struct BlueyeDrone::Impl {
 
   void request(const std::string& peer, std::string_view name, std::string_view data) {
     if (!online()) return;
+    nothing_due_before = UtcTime{0};
     Reply reply{peer, "google.protobuf.Empty", {}, core.now + seconds(faults.reply_delay_s)};
     if (const BlueyeRequest* known = findBlueyeRequest(withoutPackage(name))) {
       reply.name = kBlueyePackage + known->reply;
@@ -93,6 +94,7 @@ struct BlueyeDrone::Impl {
 
   void control(std::string_view name, std::string_view data) {
     if (!online()) return;
+    nothing_due_before = UtcTime{0};
     const BlueyeControl* known = findBlueyeControl(withoutPackage(name));
     if (known == nullptr) {
       ++core.counts.unknown;
@@ -152,6 +154,7 @@ struct BlueyeDrone::Impl {
   }
 
   void reboot() {
+    nothing_due_before = UtcTime{0};
     core.reboot();
     useConfiguredRates();
     replies.clear();
@@ -163,6 +166,7 @@ struct BlueyeDrone::Impl {
   void finishBooting() {
     if (!booting || !online()) return;
     booting = false;
+    nothing_due_before = UtcTime{0};
     core.reboot();
     useConfiguredRates();
   }
@@ -170,7 +174,20 @@ struct BlueyeDrone::Impl {
   bool online() const { return core.now >= back; }
   bool silent() const { return core.now < silence_ends; }
 
+  // Most ticks publish nothing, and looking through all rates costs more than all the rest.
   void publish(Sink& sink) {
+    const BlueyeComputer& computer = core.computer;
+    const bool news = !computer.notifications.empty() || !computer.events.empty();
+    const bool pings = computer.multibeam.rateHz() > 0.0;
+    if (!news && !pings && core.now < nothing_due_before) return;
+    publishDue(sink);
+    nothing_due_before = core.now + std::chrono::seconds{1};
+    for (const auto& [name, due] : computer.due) {
+      nothing_due_before = std::min(nothing_due_before, due);
+    }
+  }
+
+  void publishDue(Sink& sink) {
     while (!core.computer.notifications.empty()) {
       bp::NotificationTel message;
       *message.mutable_notification() = core.computer.notifications.front();
@@ -235,6 +252,7 @@ struct BlueyeDrone::Impl {
   Random chance;
   UtcTime next_tick;
   UtcTime next_truth{0};
+  UtcTime nothing_due_before{0};  ///< unless a client asks for something
   std::optional<UtcTime> next_reboot;
   std::optional<UtcTime> next_silence;
   UtcTime silence_ends{0};
