@@ -1,16 +1,13 @@
 #include "runs.h"
 
-#include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <mutex>
-#include <thread>
+
+#include "seeds.h"
 
 namespace frontseat_driver::simulation {
 
 namespace {
-
-constexpr int kMostShrinkingRuns = 400;
 
 std::string line(const char* what, double value) {
   char text[96];
@@ -20,53 +17,24 @@ std::string line(const char* what, double value) {
 
 std::string brokenBy(const Plan& plan) { return Mission{plan}.run(); }
 
-/// Runs of one thread after the other take the next seed.
-class Pool {
- public:
-  Pool(const Runs& runs, Totals& totals, const std::function<void(std::uint64_t)>& progress)
-      : runs_(runs), totals_(totals), progress_(progress), next_(runs.first) {}
-
-  std::optional<Failure> run() {
-    std::vector<std::thread> threads;
-    for (unsigned i = 1; i < runs_.threads; ++i) threads.emplace_back([this] { work(); });
-    work();
-    for (std::thread& thread : threads) thread.join();
-    return failure_;
-  }
-
- private:
-  void work() {
-    for (std::uint64_t seed = next_++; seed < runs_.first + runs_.count && !failed_;
-         seed = next_++) {
-      const auto dialect = runs_.dialect.value_or(dialectOf(seed));
-      Mission mission{planFor(seed, dialect, runs_.hours, runs_.pace)};
-      const std::string broken = mission.run();
-      const std::lock_guard<std::mutex> lock(mutex_);
-      totals_.add(mission.totals());
-      if (!broken.empty()) fail({seed, dialect, runs_.hours, runs_.pace, broken});
-      if (progress_) progress_(totals_.runs);
-    }
-  }
-
-  void fail(const Failure& failure) {
-    failed_ = true;
-    if (!failure_ || failure.seed < failure_->seed) failure_ = failure;
-  }
-
-  const Runs& runs_;
-  Totals& totals_;
-  const std::function<void(std::uint64_t)>& progress_;
-  std::atomic<std::uint64_t> next_;
-  std::atomic<bool> failed_{false};
-  std::mutex mutex_;
-  std::optional<Failure> failure_;
-};
-
 }  // namespace
 
 std::optional<Failure> makeRuns(const Runs& runs, Totals& totals,
                                 const std::function<void(std::uint64_t)>& progress) {
-  return Pool{runs, totals, progress}.run();
+  std::mutex mutex;
+  const auto dialectFor = [&](std::uint64_t seed) {
+    return runs.dialect.value_or(dialectOf(seed));
+  };
+  const auto broken = firstBroken(runs.first, runs.count, runs.threads, [&](std::uint64_t seed) {
+    Mission mission{planFor(seed, dialectFor(seed), runs.hours, runs.pace)};
+    std::string found = mission.run();
+    const std::lock_guard<std::mutex> lock(mutex);
+    totals.add(mission.totals());
+    if (progress) progress(totals.runs);
+    return found;
+  });
+  if (!broken) return std::nullopt;
+  return Failure{broken->seed, dialectFor(broken->seed), runs.hours, runs.pace, broken->broken};
 }
 
 Plan planOf(const Failure& failure) {
@@ -74,24 +42,7 @@ Plan planOf(const Failure& failure) {
 }
 
 Plan shrunk(const Failure& failure) {
-  Plan plan = planOf(failure);
-  int runs = 0;
-  for (std::size_t size = plan.actions.size(); size > 0 && runs < kMostShrinkingRuns; size /= 2) {
-    for (std::size_t from = 0; from < plan.actions.size() && runs < kMostShrinkingRuns;) {
-      Plan fewer = plan;
-      const auto begin = fewer.actions.begin() + static_cast<std::ptrdiff_t>(from);
-      const auto end =
-          begin + static_cast<std::ptrdiff_t>(std::min(size, fewer.actions.size() - from));
-      fewer.actions.erase(begin, end);
-      ++runs;
-      if (brokenBy(fewer).empty()) {
-        from += size;
-      } else {
-        plan = fewer;
-      }
-    }
-  }
-  return plan;
+  return leastThat<Plan>(planOf(failure), [](const Plan& plan) { return !brokenBy(plan).empty(); });
 }
 
 std::string describe(const Plan& plan) {
