@@ -76,8 +76,9 @@ bench: ## what a sentence costs, beside baselines, as doc/performance.md explain
 
 simulate: ## missions in virtual time on all cores, any fault from a seed; SEEDS=10000, HOURS=1 each
 	@scripts/install_dependencies build test
-	@TARGETS=mission_simulation scripts/build -DCATKIN_ENABLE_TESTING=ON
+	@TARGETS="mission_simulation blueye_mission_simulation" scripts/build -DCATKIN_ENABLE_TESTING=ON
 	@"$(BUILD_DIR)/devel/lib/frontseat_driver/mission_simulation" --seeds=$(SEEDS) --hours=$(HOURS)
+	@"$(BUILD_DIR)/devel/lib/frontseat_driver/blueye_mission_simulation" --seeds=$(SEEDS)
 
 plant: ## plants bugs in a copy of the sources and shows that missions find each; SEEDS=100
 	@scripts/install_dependencies build test
