@@ -25,7 +25,7 @@ std::string duration(nanoseconds time) {
   const double seconds = Seconds(time).count();
   const auto whole = static_cast<long long>(seconds);
   if (whole < 60) return print("%.3f s", seconds);
-  const double rest = seconds - static_cast<double>(whole / 60 * 60);
+  const double rest = seconds - static_cast<double>(whole - whole % 60);
   if (whole < 3600) return print("%lld min %06.3f s", whole / 60, rest);
   return print("%lld h %02lld min %06.3f s", whole / 3600, whole / 60 % 60, rest);
 }

@@ -35,7 +35,7 @@ void judge(const Health& health, Diagnosis& diagnosis) {
         "their data: noise on a serial line behind the TCP port? Check cable, ground and baud rate "
         "there; topic nmea/rx shows the lines",
         100.0 * share(damaged, lines), static_cast<unsigned long long>(recent.bad_checksums),
-        static_cast<unsigned long long>(recent.bad_frames + recent.oversized));
+        static_cast<unsigned long long>(recent.bad_frames) + recent.oversized);
   } else if (isMuch(recent.other_dialect, sentences)) {
     diagnosis.level = Level::Warn;
     diagnosis.message = printed(
