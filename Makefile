@@ -26,7 +26,7 @@ help: ## what there is to make
 
 demo: ## a simulated vehicle and its driver, in rviz if there is a display; VEHICLE=sandshark|kingfisher|blueye, EXAMPLE=square|square_cpp|survey|dive
 	@scripts/install_dependencies build $(if $(DISPLAY),rviz)
-	@scripts/build -DCATKIN_ENABLE_TESTING=OFF
+	@scripts/build -DCATKIN_ENABLE_TESTING=OFF -DFRONTSEAT_QUICK_BUILD=ON
 	@scripts/demo "$(VEHICLE)" "$(EXAMPLE)"
 
 test: ## builds with warnings as errors and runs all tests; closes with "N passed, M failed"
