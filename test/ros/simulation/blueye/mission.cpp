@@ -163,13 +163,13 @@ void Mission::pass(Duration end) {
 }
 
 Duration Mission::nextEvent() const {
-  const auto fromSteady = [](vehicle::SteadyTime time) {
+  const auto from_steady = [](vehicle::SteadyTime time) {
     return time == vehicle::SteadyTime::max() ? Duration::max() : time.time_since_epoch() - kBegin;
   };
   Duration next = next_tick_;
   const Duration for_driver =
       std::min(network_.next() == Duration::max() ? Duration::max() : network_.next() - kBegin,
-               session_ ? fromSteady(std::max(session_->nextStep(), vehicle::SteadyTime{kBegin}))
+               session_ ? from_steady(std::max(session_->nextStep(), vehicle::SteadyTime{kBegin}))
                         : Duration::max());
   next = std::min(next, std::max(for_driver, held_up_until_));
   if (next_action_ < plan_.actions.size()) next = std::min(next, plan_.actions[next_action_].at);
