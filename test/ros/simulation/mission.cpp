@@ -280,8 +280,9 @@ void Mission::unload(const Action& action) {
   running_ = false;
   supervised_.leave();
   later(40ms, [this] {
-    const bool refused = loop_->connected() && !loop_->session().hasLeft();
-    supervised_.promise(!refused || loop_->link.room > 0, "has not left in time");
+    const bool waits = loop_->connected() && !loop_->session().hasLeft();
+    const bool link_is_full = loop_->link.room > 0 || !loop_->link.takes;
+    supervised_.promise(!waits || link_is_full, "has not left in time");
     network_.setRunning(false);
     supervised_.disconnect();
   });
