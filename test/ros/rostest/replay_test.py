@@ -56,6 +56,10 @@ class Messages:
     def _take(self, message, topic):
         self.raw[topic].append(message._buff)
 
+    def connected_to(self, topics):
+        return all(subscriber.get_num_connections() > 0
+                   for topic, subscriber in zip(TOPICS, self._subscribers) if topic in topics)
+
     def counts(self):
         return {topic: len(raw) for topic, raw in self.raw.items()}
 
@@ -174,6 +178,9 @@ class Replay:
         namespace = mission.namespace + "_" + name
         self.messages = Messages(namespace)
         self._driver = NodeDriver(namespace, {"source": "topic"}, ["/tf:=" + namespace + "/tf"])
+        # On a slow computer that takes longer than the second for which the driver waits.
+        spoken = {topic for topic, count in mission.messages.counts().items() if count}
+        wait_until(lambda: self.messages.connected_to(spoken), "connections for what is replayed")
         self._began = time.monotonic()
         self._player = Process(player(mission, namespace, record))
 
