@@ -1,8 +1,5 @@
 #include "plan.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace frontseat_driver::simulation {
 
 using namespace std::chrono_literals;
@@ -12,13 +9,6 @@ namespace {
 
 // 2026-03-01 00:00:00 UTC, `date -u -d 2026-03-01 +%s`.
 constexpr vehicle::UtcTime kMidnight = std::chrono::seconds{1772323200};
-
-struct KindRow {
-  std::string_view name;
-  double per_hour;  ///< how often, on average
-  double least_s;   ///< how long
-  double most_s;
-};
 
 // In the order of Kind.
 constexpr KindRow kRows[] = {
@@ -150,29 +140,6 @@ void keepOwnRates(sim::FrontseatConfig& config, Dialect dialect) {
   config.rates = own;
 }
 
-std::vector<Action> anyActions(sim::Random& random, Duration length, double pace) {
-  std::vector<Action> actions;
-  const double hours = std::chrono::duration<double>(length).count() / 3600.0;
-  // Rough hours and quiet ones.
-  const double rate = pace * oneOf(random, {0.3, 1.0, 1.0, 3.0});
-  for (std::size_t i = 0; i < kKinds; ++i) {
-    const double mean = kRows[i].per_hour * hours * rate;
-    auto count = static_cast<std::size_t>(mean);
-    if (random.chance(mean - std::floor(mean))) ++count;
-    for (std::size_t n = 0; n < count; ++n) {
-      Action action;
-      action.at = fromSeconds(random.uniform() * hours * 3600.0);
-      action.kind = static_cast<Kind>(i);
-      action.lasts = fromSeconds(between(random, kRows[i].least_s, kRows[i].most_s));
-      action.seed = 1 + random.below(1000000000);
-      actions.push_back(action);
-    }
-  }
-  std::stable_sort(actions.begin(), actions.end(),
-                   [](const Action& a, const Action& b) { return a.at < b.at; });
-  return actions;
-}
-
 }  // namespace
 
 std::string_view nameOf(Kind kind) { return rowOf(kind).name; }
@@ -203,7 +170,7 @@ Plan planFor(std::uint64_t seed, Dialect dialect, double hours, double pace) {
   plan.kingfisher.yaw_rate_in_degrees = plan.parameters.session.format.yaw_rate_in_degrees;
   plan.kingfisher.waves_deg = random.chance(0.5) ? 1.5 : 0.0;
   plan.kingfisher.imu_formatter = random.chance(0.5) ? "IMU" : "RIM";
-  plan.actions = anyActions(random, plan.length, pace);
+  plan.actions = anyHappenings<Kind>(kRows, random, plan.length, pace);
   return plan;
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "closed_loop.h"
-#include "frontseat_driver/sim/random.h"
+#include "happenings.h"
 
 namespace frontseat_driver::simulation {
 
@@ -68,13 +68,7 @@ constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kCount);
 /// "half-open", for people.
 std::string_view nameOf(Kind kind);
 
-/// One thing that happens, for how long where it lasts, and where its details come from.
-struct Action {
-  Duration at{};
-  Kind kind{};
-  Duration lasts{};
-  std::uint64_t seed = 0;
-};
+using Action = Happening<Kind>;
 
 /// All that a seed decides before a run begins. What happens can be taken out one by one without
 /// changing the rest, to find what a failure needs.
@@ -94,16 +88,5 @@ Plan planFor(std::uint64_t seed, protocol::Dialect dialect, double hours, double
 
 /// The vehicle that a seed is given if none is asked for.
 protocol::Dialect dialectOf(std::uint64_t seed);
-
-template <class T, std::size_t kCount>
-const T& oneOf(sim::Random& random, const T (&choices)[kCount]) {
-  return choices[random.below(kCount)];
-}
-
-inline double between(sim::Random& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-inline Duration fromSeconds(double s) { return Duration{static_cast<std::int64_t>(s * 1e9)}; }
 
 }  // namespace frontseat_driver::simulation

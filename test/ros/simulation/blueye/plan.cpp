@@ -1,7 +1,5 @@
 #include "plan.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace frontseat_driver::blueye_simulation {
@@ -13,15 +11,8 @@ namespace {
 // 2026-03-01 12:00:00 UTC, `date -u -d '2026-03-01 12:00' +%s`.
 constexpr vehicle::UtcTime kNoon = std::chrono::seconds{1772366400};
 
-struct KindRow {
-  std::string_view name;
-  double per_hour;  ///< how often, on average
-  double least_s;   ///< how long
-  double most_s;
-};
-
 // In the order of Kind.
-constexpr KindRow kRows[] = {
+constexpr simulation::KindRow kRows[] = {
     {"stream of commands", 90.0, 0.2, 40.0},
     {"nonsense", 10.0, 0, 0},
     {"take_control", 80.0, 0, 0},
@@ -89,29 +80,6 @@ sim::BlueyeConfig anyDrone(sim::Random& random, bool clockwise_yaw) {
   return config;
 }
 
-std::vector<Action> anyActions(sim::Random& random, Duration length, double pace) {
-  std::vector<Action> actions;
-  const double hours = inSeconds(length) / 3600.0;
-  // Rough times and quiet ones.
-  const double rate = pace * oneOf(random, {0.3, 1.0, 1.0, 3.0});
-  for (std::size_t i = 0; i < kKinds; ++i) {
-    const double mean = kRows[i].per_hour * hours * rate;
-    auto count = static_cast<std::size_t>(mean);
-    if (random.chance(mean - std::floor(mean))) ++count;
-    for (std::size_t n = 0; n < count; ++n) {
-      Action action;
-      action.at = fromSeconds(random.uniform() * hours * 3600.0);
-      action.kind = static_cast<Kind>(i);
-      action.lasts = fromSeconds(between(random, kRows[i].least_s, kRows[i].most_s));
-      action.seed = 1 + random.below(1000000000);
-      actions.push_back(action);
-    }
-  }
-  std::stable_sort(actions.begin(), actions.end(),
-                   [](const Action& a, const Action& b) { return a.at < b.at; });
-  return actions;
-}
-
 }  // namespace
 
 std::string_view nameOf(Kind kind) { return kRows[static_cast<std::size_t>(kind)].name; }
@@ -123,7 +91,7 @@ Plan planFor(std::uint64_t seed, double hours, double pace) {
   plan.length = fromSeconds(hours * 3600.0);
   plan.options = anyOptions(random);
   plan.drone = anyDrone(random, plan.options.clockwise_yaw);
-  plan.actions = anyActions(random, plan.length, pace);
+  plan.actions = simulation::anyHappenings<Kind>(kRows, random, plan.length, pace);
   return plan;
 }
 

@@ -9,11 +9,15 @@
 #include "frontseat_driver/session/blueye_session.h"
 #include "frontseat_driver/sim/blueye/config.h"
 #include "frontseat_driver/sim/blueye/drone.h"
-#include "frontseat_driver/sim/random.h"
+#include "happenings.h"
 
 namespace frontseat_driver::blueye_simulation {
 
 using Duration = std::chrono::nanoseconds;
+using simulation::between;
+using simulation::fromSeconds;
+using simulation::inSeconds;
+using simulation::oneOf;
 
 /// What the steady clock shows when a run begins.
 constexpr Duration kBegin = std::chrono::hours{1};
@@ -63,13 +67,7 @@ constexpr std::size_t kKinds = static_cast<std::size_t>(Kind::kCount);
 /// "held up", for people.
 std::string_view nameOf(Kind kind);
 
-/// One thing that happens, for how long where it lasts, and where its details come from.
-struct Action {
-  Duration at{};
-  Kind kind{};
-  Duration lasts{};
-  std::uint64_t seed = 0;
-};
+using Action = simulation::Happening<Kind>;
 
 /// All that a seed decides before a run begins. What happens can be taken out one by one without
 /// changing the rest, to find what a failure needs.
@@ -86,20 +84,5 @@ Plan planFor(std::uint64_t seed, double hours, double pace = 1.0);
 
 /// What happens in a plan, a line each.
 std::string describe(const Plan& plan);
-
-template <class T, std::size_t kCount>
-const T& oneOf(sim::Random& random, const T (&choices)[kCount]) {
-  return choices[random.below(kCount)];
-}
-
-inline double between(sim::Random& random, double low, double high) {
-  return low + (high - low) * random.uniform();
-}
-
-inline Duration fromSeconds(double s) { return Duration{static_cast<std::int64_t>(s * 1e9)}; }
-
-inline double inSeconds(Duration duration) {
-  return std::chrono::duration<double>(duration).count();
-}
 
 }  // namespace frontseat_driver::blueye_simulation
