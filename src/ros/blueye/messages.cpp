@@ -30,6 +30,9 @@ ros::Duration secondsOf(double seconds) {
   return out.fromSec(std::clamp(seconds, -2e9, 2e9));
 }
 
+/// A camera that is not recorded has -1 there, which the vendor's library alone says.
+ros::Duration recordedFor(std::int32_t seconds) { return secondsOf(std::max(0, seconds)); }
+
 ros::Time timeOf(const google::protobuf::Timestamp& time) {
   // Any number may come; nanoseconds of it must fit into 64 bits, and ros::Time ends in 2106.
   constexpr std::int64_t kEnd_s = 1LL << 32;
@@ -717,13 +720,13 @@ std::optional<BlueyeRecordState> toRecordState(const pb::RecordStateTel& told,
   BlueyeRecordState out;
   out.header = context.header("");
   out.main = in.main_is_recording();
-  out.main_duration = secondsOf(in.main_seconds());
+  out.main_duration = recordedFor(in.main_seconds());
   out.main_rate = in.main_fps();
   out.guestport = in.guestport_is_recording();
-  out.guestport_duration = secondsOf(in.guestport_seconds());
+  out.guestport_duration = recordedFor(in.guestport_seconds());
   out.guestport_rate = in.guestport_fps();
   out.multibeam = in.multibeam_is_recording();
-  out.multibeam_duration = secondsOf(in.multibeam_seconds());
+  out.multibeam_duration = recordedFor(in.multibeam_seconds());
   out.multibeam_rate = in.multibeam_fps();
   return out;
 }

@@ -1,6 +1,7 @@
 #include "core.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "frontseat_driver/sim/angles.h"
@@ -130,8 +131,8 @@ void BlueyeCore::notify(bp::NotificationType type, bp::NotificationLevel level,
     number.set_value(*value);
     notification.mutable_value()->PackFrom(number);
   }
-  // Clients take two of the same time for one: a nanosecond tells them apart.
-  const UtcTime apart{static_cast<std::int64_t>(computer.notifications.size())};
+  // Clients take two of the same time for one, and Python's times have no more than microseconds.
+  const std::chrono::microseconds apart{computer.notifications.size()};
   *notification.mutable_timestamp() = toTimestamp(clock() + apart);
   computer.last_notification = notification;
   computer.notifications.push_back(std::move(notification));

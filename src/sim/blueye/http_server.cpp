@@ -7,6 +7,7 @@
 #include <boost/beast/http.hpp>
 #include <chrono>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 namespace frontseat_driver::sim {
@@ -16,10 +17,16 @@ namespace http = boost::beast::http;
 using boost::asio::ip::tcp;
 using Error = boost::beast::error_code;
 
+constexpr std::string_view kDroneInfo = "/diagnostics/drone_info";
 constexpr std::chrono::seconds kPatience{5};
 constexpr std::chrono::milliseconds kBreath{100};  // when there are no descriptors left
 constexpr std::uint32_t kMostHeader = 8192;
 constexpr std::uint64_t kMostBody = 8192;
+
+/// Where clients look for the drone's logs, of both kinds; the simulated one keeps none.
+bool listsLogs(std::string_view path) {
+  return path == "/logs" || path == "/logs/" || path == "/logcsv" || path == "/logcsv/";
+}
 
 /// One connection, which ends with its first answer.
 class Visit : public std::enable_shared_from_this<Visit> {
@@ -46,14 +53,17 @@ class Visit : public std::enable_shared_from_this<Visit> {
     const bool reads = request.method() == http::verb::get || request.method() == http::verb::head;
     response_.version(request.version());
     response_.keep_alive(false);
+    const bool known = path == kDroneInfo || listsLogs(path);
     if (!reads) {
       response_.result(http::status::method_not_allowed);
-    } else if (path != "/diagnostics/drone_info") {
+    } else if (!known) {
       response_.result(http::status::not_found);
     } else {
       response_.result(http::status::ok);
       response_.set(http::field::content_type, "application/json");
-      if (request.method() == http::verb::get) response_.body() = drone_info_;
+      if (request.method() == http::verb::get) {
+        response_.body() = path == kDroneInfo ? drone_info_ : "[]";
+      }
     }
     response_.prepare_payload();
     http::async_write(stream_, response_, [self = shared_from_this()](const Error&, std::size_t) {

@@ -10,7 +10,8 @@
 
 namespace frontseat_driver::sim {
 
-/// The one page of the drone's web server that clients ask for: `GET /diagnostics/drone_info`.
+/// What clients ask the drone's web server for before anything else, `GET /diagnostics/drone_info`,
+/// and the lists of its logs, `/logs` and `/logcsv`, which are empty.
 class BlueyeHttpServer {
  public:
   /// Listens and serves on a thread of its own; throws boost::system::system_error.

@@ -10,15 +10,20 @@ namespace {
 constexpr double kWall_mm = 12.4;  // what the thickness gauge is held against
 constexpr float kFramesPerSecond = 30.0F;
 
+/// The document names no value for a camera that does not record; the vendor's library says -1.
+std::int32_t secondsOf(const BlueyeRecorder& recorder) {
+  return recorder.on ? static_cast<std::int32_t>(recorder.seconds) : -1;
+}
+
 bool recordState(BlueyeCore& core, bp::RecordStateTel& message) {
   const BlueyePayload& payload = core.computer.payload;
   bp::RecordState& out = *message.mutable_record_state();
   out.set_main_is_recording(payload.main.on);
-  out.set_main_seconds(static_cast<std::int32_t>(payload.main.seconds));
+  out.set_main_seconds(secondsOf(payload.main));
   out.set_guestport_is_recording(payload.guest_port.on);
-  out.set_guestport_seconds(static_cast<std::int32_t>(payload.guest_port.seconds));
+  out.set_guestport_seconds(secondsOf(payload.guest_port));
   out.set_multibeam_is_recording(payload.multibeam.on);
-  out.set_multibeam_seconds(static_cast<std::int32_t>(payload.multibeam.seconds));
+  out.set_multibeam_seconds(secondsOf(payload.multibeam));
   if (payload.main.on) out.set_main_fps(kFramesPerSecond);
   if (payload.guest_port.on) out.set_guestport_fps(kFramesPerSecond);
   if (payload.multibeam.on) {

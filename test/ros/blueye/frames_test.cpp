@@ -399,6 +399,18 @@ TEST_F(Frames, AZeroInsideTheContentIsAValue) {
   EXPECT_FALSE(toControlMode(mode, context())->auto_depth);
 }
 
+TEST_F(Frames, ACameraThatIsNotRecordedHasBeenForNoTime) {
+  pb::RecordStateTel told;
+  told.mutable_record_state()->set_main_is_recording(true);
+  told.mutable_record_state()->set_main_seconds(12);
+  told.mutable_record_state()->set_guestport_seconds(-1);
+  const auto out = toRecordState(told, context());
+  EXPECT_TRUE(out->main);
+  EXPECT_EQ(out->main_duration.toSec(), 12.0);
+  EXPECT_FALSE(out->guestport);
+  EXPECT_EQ(out->guestport_duration.toSec(), 0.0);
+}
+
 TEST_F(Frames, ABatteryWithoutVoltageIsNoBattery) {
   pb::Battery told;
   EXPECT_FALSE(toBattery(told, 0, context()));

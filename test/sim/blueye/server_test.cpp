@@ -247,7 +247,10 @@ TEST_P(Pages, AreAnsweredInTheirWay) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, Pages,
-    testing::Values(Page{"other", "GET /logcsv HTTP/1.1\r\nHost: x\r\n\r\n", "404"},
+    testing::Values(Page{"other", "GET /pictures HTTP/1.1\r\nHost: x\r\n\r\n", "404"},
+                    Page{"logs", "GET /logs HTTP/1.1\r\nHost: x\r\n\r\n", "\r\n\r\n[]"},
+                    Page{"csv_logs", "GET /logcsv?all=True HTTP/1.1\r\n\r\n", "\r\n\r\n[]"},
+                    Page{"one_log", "GET /logs/1/binlog HTTP/1.1\r\n\r\n", "404"},
                     Page{"query", "GET /diagnostics/drone_info?x=1 HTTP/1.1\r\n\r\n", "200"},
                     Page{"head", "HEAD /diagnostics/drone_info HTTP/1.1\r\n\r\n", "200"},
                     Page{"post",
