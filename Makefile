@@ -19,7 +19,7 @@ HOURS ?= 1
 FUZZ_SECONDS ?= 60
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test soak simulate plant mutate lint bench clean
+.PHONY: help demo test replay-test build pictures coverage fuzz sanitize netns-test sdk-test soak simulate plant mutate lint bench clean
 
 help: ## what there is to make
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1	/p' Makefile | expand -t 20
@@ -56,6 +56,11 @@ netns-test: ## real network faults between network namespaces; needs root
 	@scripts/install_dependencies build test netns
 	@scripts/build
 	@scripts/netns_test
+
+sdk-test: ## the vendor's Python SDK with the simulated Blueye and beside the driver; needs root, PYTHON=one with blueye.sdk
+	@scripts/install_dependencies build test netns
+	@scripts/build
+	@scripts/sdk_test
 
 soak: ## HOURS=1 of a boat behind a link that breaks; memory, threads and sentences are counted
 	@scripts/install_dependencies build test soak
