@@ -1,9 +1,10 @@
 """Runs the tests that CMake knows, two at a time, and adds up the cases that they report.
 
 A test program that crashes, hangs, or reports nothing counts as one failed case, never as none.
-A rostest keeps time by the clock on the wall, with several processes: on a computer that was just
-then held up it may fail without a fault. One that fails is run once more when all others have
-ended, which is said and shown; only what it reports then counts. Everything else has one try.
+Rostests and the programs with real sockets keep time by the clock on the wall: on a computer that
+was just then held up they may fail without a fault. One that fails is run up to twice more when all
+others have ended, which is said and shown; only what it reports last counts. Everything else, in
+virtual time or none, has one try.
 """
 
 import concurrent.futures
@@ -21,6 +22,10 @@ import xml.etree.ElementTree as xml
 
 TIMEOUT_S = 300  # for tests that set no TIMEOUT of their own
 AT_ONCE = 2  # rostests mostly wait
+TIMED_BY_WALL = re.compile(
+    r"rostest_|gtest_(link|zmq_link|driver|blueye_driver|diagnosis_link|sim|sim_blueye)_test$|"
+    r"python_(blueye_client_steps|monitor_screen|nmea_decode)$")
+MORE_TRIES = 2
 
 
 class Count:
@@ -44,7 +49,7 @@ class Test:
         self.command = known["command"]
         self.folder = properties["WORKING_DIRECTORY"]
         self.timeout_s = min(properties.get("TIMEOUT", TIMEOUT_S), TIMEOUT_S * 10)
-        self.timed_by_wall = self.name.startswith("rostest_")
+        self.timed_by_wall = TIMED_BY_WALL.match(self.name) is not None
         words = shlex.split(" ".join(self.command))
         report = next(word for word in words if word.endswith(".xml"))
         self.reports = [report]
@@ -146,15 +151,20 @@ class Runner:
             if os.path.isfile(path):
                 shutil.copy(path, place)
 
+    def run_again(self, test, count):
+        for _ in range(MORE_TRIES):
+            if not count.failed:
+                break
+            print("once more:", flush=True)
+            count = self.run(test)
+        return count
+
     def run_all(self, tests):
         with concurrent.futures.ThreadPoolExecutor(AT_ONCE) as pool:
             counts = list(pool.map(self.run, tests))
         total = Count()
         for test, count in zip(tests, counts):
-            if count.failed and test.timed_by_wall:
-                print("once more:", flush=True)
-                count = self.run(test)
-            total.add(count)
+            total.add(self.run_again(test, count) if test.timed_by_wall else count)
         return total
 
 
