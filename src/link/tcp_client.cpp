@@ -31,9 +31,10 @@ using std::chrono::milliseconds;
 
 namespace {
 
-constexpr std::size_t kReadSize = 65536;
-/// Reads in one go at most, so that a vehicle that floods leaves time for timers and posted tasks.
-constexpr int kReadsPerTurn = 8;
+constexpr std::size_t kReadSize = 16384;
+/// Reads in one go at most, so that a vehicle that floods leaves time for timers and posted tasks: an
+/// abort waits for some 800 sentences.
+constexpr int kReadsPerTurn = 4;
 /// Commands that the vehicle does not take must not pile up in the kernel: some dozen sentences.
 constexpr int kSendBuffer = 16384;
 constexpr milliseconds kCloseLimit{50};
