@@ -1,4 +1,4 @@
-# Two ways to build in less time. Off unless asked for (`make test` and `make demo` ask), so that a
+# Three ways to build in less time. Off unless asked for (`make test` and `make demo` ask), so that a
 # build with catkin, and `make lint` in a folder of its own, show that each file includes what it
 # uses.
 option(FRONTSEAT_QUICK_BUILD "Compile small files together and common headers once" OFF)
@@ -8,6 +8,13 @@ function(compile_together)
   if(FRONTSEAT_QUICK_BUILD)
     set_target_properties(${ARGN} PROPERTIES UNITY_BUILD ON)
   endif()
+endfunction()
+
+# compile_without_optimizing(<target>...): generated code, which takes the compiler longest.
+function(compile_without_optimizing)
+  foreach(target ${ARGN})
+    target_compile_options(${target} PRIVATE $<$<BOOL:${FRONTSEAT_QUICK_BUILD}>:-O0>)
+  endforeach()
 endfunction()
 
 # share_precompiled_headers(<header>... USED_BY <owner> <target>...): only targets with the same
