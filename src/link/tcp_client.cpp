@@ -32,8 +32,8 @@ using std::chrono::milliseconds;
 namespace {
 
 constexpr std::size_t kReadSize = 16384;
-/// Reads in one go at most, so that a vehicle that floods leaves time for timers and posted tasks: an
-/// abort waits for some 800 sentences.
+/// Reads in one go at most, so that a vehicle that floods leaves time for timers and posted tasks:
+/// an abort waits for some 800 sentences.
 constexpr int kReadsPerTurn = 4;
 /// Commands that the vehicle does not take must not pile up in the kernel: some dozen sentences.
 constexpr int kSendBuffer = 16384;
