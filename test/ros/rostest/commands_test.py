@@ -14,7 +14,7 @@ from frontseat_driver.srv import Abort, ModifyBehavior, SendSentence, SetLogging
 from geometry_msgs.msg import Twist, Vector3
 
 from driver_under_test import (Collector, Log, NodeDriver, Publisher, Repeater, parameters_for,
-                               run)
+                               row, run)
 from fake_vehicle import (acknowledgement, boat, checksum, control, navigation, sentence, shark,
                           time_of_day, wait_until)
 
@@ -111,7 +111,7 @@ class Boat(Commanding):
         self.start(boat(), **PATIENT)
         publishers = {}
         for topic, message, expected in BOAT_ROWS:
-            with self.subTest(topic=topic, expected=expected):
+            with row(topic=topic, expected=expected):
                 if topic not in publishers:
                     publishers[topic] = self.publisher(topic, type(message))
                 began = time.monotonic()
@@ -143,7 +143,7 @@ class Shark(Commanding):
         self.start(shark(), datum=[42.35, -71.1], **PATIENT)
         publisher = self.publisher("cmd_behavior", Behavior)
         for message, expected in SHARK_ROWS:
-            with self.subTest(expected=expected):
+            with row(expected=expected):
                 began = time.monotonic()
                 publisher.publish(message)
                 wait_until(lambda: self.connection.since(began, "RMB"), expected)

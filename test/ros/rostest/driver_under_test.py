@@ -1,5 +1,6 @@
 """Starts the driver as a node or as a nodelet, and what is needed around it."""
 
+import contextlib
 import os
 import re
 import signal
@@ -280,6 +281,16 @@ class Log(Collector):
         """What a node or nodelet said at that level or above."""
         return [entry.msg for entry in self.messages
                 if entry.level >= level and entry.msg.startswith(node + ":")]
+
+
+@contextlib.contextmanager
+def row(**named):
+    """Names the row of a table that failed, as subTest() does, whose failures rosunit keeps to
+    itself."""
+    try:
+        yield
+    except (AssertionError, rospy.ServiceException) as error:
+        raise AssertionError("%s: %s" % (named, error)) from error
 
 
 def run(name):

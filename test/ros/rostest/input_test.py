@@ -15,7 +15,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix, NavSatStatus, Range, TimeReference
 from std_srvs.srv import Trigger
 
-from driver_under_test import Collector, NodeDriver, Usage, parameters_for, run
+from driver_under_test import Collector, NodeDriver, Usage, parameters_for, row, run
 from fake_vehicle import FakeVehicle, navigation, sentence, wait_until
 
 CAPTURE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "captures",
@@ -264,7 +264,7 @@ class HostileVehicle(unittest.TestCase):
         for name, flood in self.FLOODS.items():
             self.flood(connection, flood)
             before = Usage(driver.process.pid)
-            with self.subTest(flood=name):
+            with row(flood=name):
                 self.flood(connection, flood, meanwhile=lambda: self.assert_stops(stop))
                 # The thread of the last call may be at its end a moment after the answer.
                 wait_until(lambda: Usage(driver.process.pid).threads <= before.threads,

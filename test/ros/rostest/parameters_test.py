@@ -7,7 +7,7 @@ import unittest
 import rosgraph
 from nav_msgs.msg import Odometry
 
-from driver_under_test import (Collector, NodeDriver, NodeletDriver, parameters_for, run)
+from driver_under_test import (Collector, NodeDriver, NodeletDriver, parameters_for, row, run)
 from fake_vehicle import boat, navigation, wait_until
 
 # Name, value, the value as the line shows it, and what the line says is accepted.
@@ -77,7 +77,7 @@ class BadParameter(unittest.TestCase):
         with concurrent.futures.ThreadPoolExecutor(4) as pool:
             results = list(pool.map(start_with, range(len(BAD)), BAD))
         for (name, value, shown, accepted), (code, lines) in zip(BAD, results):
-            with self.subTest(name=name, value=value):
+            with row(name=name, value=value):
                 self.assertEqual(1, code, lines)
                 self.assertEqual(1, len(lines), lines)
                 self.assertIn("parameter %s is %s: %s" % (name, shown, accepted), lines[0])
