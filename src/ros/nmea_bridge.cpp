@@ -129,7 +129,7 @@ void NmeaBridge::onDisconnected(const vehicle::Now& now, const std::string& reas
     ROS_WARN("%s: disconnected from %s: %s%s", name_.c_str(), monitor_.endpoint().c_str(),
              withAdvice(reason).c_str(), disconnect_log_.repeats().c_str());
   }
-  monitor_.disconnected(reason);
+  monitor_.disconnected(now, reason);
   connected_ = false;
   followed_dialect_.reset();
   publishLink(now);

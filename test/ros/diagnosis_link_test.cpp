@@ -52,7 +52,7 @@ class Connecting {
   Diagnoses lost() {
     EXPECT_TRUE(runUntil(io_, [this] { return !log.losses.empty(); }));
     monitor_->connected({}, log.endpoints.at(0));
-    monitor_->disconnected(log.losses.at(0));
+    monitor_->disconnected({}, log.losses.at(0));
     return diagnosed();
   }
 

@@ -73,6 +73,20 @@ const Row kRows[] = {
      "wait for the first GPS fix"},
     {"driver_hangs", [](auto& h) { h.link.unreported_s = 7.0; }, "link", Level::Error,
      "the driver itself has reported nothing for 7 s"},
+    {"lost_twice",
+     [](auto& h) {
+       h.link.losses_lately = 2;
+       h.link.last_failure = "no byte for 5.0 s";
+     },
+     "data", Level::Ok, "CPNVG comes at 10.0 Hz"},
+    {"lost_again_and_again",
+     [](auto& h) {
+       h.link.losses_lately = 3;
+       h.link.last_failure = "no byte for 5.0 s";
+     },
+     "link", Level::Warn,
+     "connected to 10.0.0.3:29500, but lost 3 times in the last minute; the last time: no byte for "
+     "5.0 s; the vehicle says nothing: a Sandshark serves one client"},
     {"silent_again_after_silence",
      [](auto& h) {
        h.rates.clear();

@@ -20,11 +20,12 @@ constexpr double kStartPatience_s = 5.0;
 
 struct LinkHealth {
   bool connected = false;
-  bool failed = false;        ///< since the vehicle was last heard, if it was
-  std::string endpoint;       ///< as connected, or host and port as configured
-  std::string last_failure;   ///< why there is, or was, no connection
-  double connected_s = 0.0;   ///< since the connection was made
-  double unreported_s = 0.0;  ///< since the driver's thread last said anything
+  bool failed = false;            ///< since the vehicle was last heard, if it was
+  std::string endpoint;           ///< as connected, or host and port as configured
+  std::string last_failure;       ///< why there is, or was, no connection
+  double connected_s = 0.0;       ///< since the connection was made
+  std::size_t losses_lately = 0;  ///< connections that ended in the last minute
+  double unreported_s = 0.0;      ///< since the driver's thread last said anything
 };
 
 /// What the clocks are like.

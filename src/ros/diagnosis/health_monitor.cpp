@@ -58,7 +58,8 @@ void HealthMonitor::connected(const vehicle::Now& now, const std::string& endpoi
   batteries_.clear();
 }
 
-void HealthMonitor::disconnected(const std::string& reason) {
+void HealthMonitor::disconnected(const vehicle::Now& now, const std::string& reason) {
+  losses_.push_back(now.steady);
   other_dialect_before_ = otherDialectOnly();
   connected_ = false;
   failed_ = true;
@@ -118,12 +119,14 @@ Health HealthMonitor::take(const vehicle::Now& now, const MessageBuilder& builde
   return health;
 }
 
-LinkHealth HealthMonitor::link(const vehicle::Now& now) const {
+LinkHealth HealthMonitor::link(const vehicle::Now& now) {
+  while (!losses_.empty() && now.steady - losses_.front() > kLately) losses_.pop_front();
   LinkHealth link;
   link.connected = connected_;
   link.failed = failed_;
   link.endpoint = connected_ ? endpoint_ : configured_endpoint_;
   link.last_failure = last_failure_;
+  link.losses_lately = losses_.size();
   if (connected_) link.connected_s = inSeconds(now.steady - connected_at_);
   return link;
 }

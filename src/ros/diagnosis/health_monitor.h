@@ -3,6 +3,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,7 +26,7 @@ class HealthMonitor {
   HealthMonitor(const Parameters& parameters, const session::NmeaSession& session);
 
   void connected(const vehicle::Now& now, const std::string& endpoint);
-  void disconnected(const std::string& reason);
+  void disconnected(const vehicle::Now& now, const std::string& reason);
   void connectFailed(const std::string& reason);
   void heard(const vehicle::Now& now, std::string_view line);
   void event(const vehicle::Now& now, const vehicle::Event& event);
@@ -41,8 +42,10 @@ class HealthMonitor {
  private:
   /// How long a refusal counts: commands are to come at 2 Hz or more.
   static constexpr std::chrono::seconds kRecent{3};
+  /// How long the end of a connection counts.
+  static constexpr std::chrono::seconds kLately{60};
 
-  LinkHealth link(const vehicle::Now& now) const;
+  LinkHealth link(const vehicle::Now& now);
   bool otherDialectOnly() const;
   std::string recentWords(const std::optional<session::CommandRefusal>& refusal,
                           const vehicle::Now& now) const;
@@ -57,6 +60,7 @@ class HealthMonitor {
   bool failed_ = false;                ///< and nothing was heard since
   bool other_dialect_before_ = false;  ///< on the last connection
   std::string last_failure_;
+  std::deque<vehicle::SteadyTime> losses_;  ///< in kLately; the back-off keeps them few
   vehicle::SteadyTime connected_at_{};
   session::NmeaCounters at_connect_;
   std::array<session::NmeaCounters, SentenceRates::kWindow> at_ticks_;

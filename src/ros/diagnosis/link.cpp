@@ -6,6 +6,8 @@ namespace {
 
 // The driver's thread reports once a second.
 constexpr double kReportsAtLeastEvery_s = 5.0;
+// In a minute: a vehicle that starts again is lost once or twice.
+constexpr std::size_t kManyLosses = 3;
 
 struct Advice {
   const char* in_reason;
@@ -76,6 +78,12 @@ void judge(const Health& health, Diagnosis& diagnosis) {
     diagnosis.level = Diagnosis::Level::Error;
     diagnosis.message =
         "connected to " + link.endpoint + " again, nothing heard yet; before: " + failure(health);
+  } else if (link.connected && link.losses_lately >= kManyLosses) {
+    diagnosis.level = Diagnosis::Level::Warn;
+    diagnosis.message =
+        printed("connected to %s, but lost %zu times in the last minute; the last time: ",
+                link.endpoint.c_str(), link.losses_lately) +
+        failure(health);
   } else if (link.connected) {
     diagnosis.message = "connected to " + link.endpoint;
   } else if (!link.failed) {
@@ -101,6 +109,7 @@ Diagnosis diagnoseLink(const Health& health) {
   judge(health, diagnosis);
   diagnosis.values = {{"dialect", health.dialect},
                       {"connected for", printed("%.0f s", health.link.connected_s)},
+                      {"lost in the last minute", std::to_string(health.link.losses_lately)},
                       {"bytes received", std::to_string(health.counters.bytes_received)},
                       {"bytes sent", std::to_string(health.counters.bytes_sent)},
                       {"sentences sent", std::to_string(health.counters.sentences_sent)}};

@@ -250,6 +250,23 @@ INSTANTIATE_TEST_SUITE_P(Table, BrokenSetUp, testing::ValuesIn(kBroken),
 
 // --- What the tables cannot tell ---
 
+TEST(DiagnosisInTime, LinkThatIsLostAgainAndAgainIsNoGoodLink) {
+  Examined examined{parametersOf(Dialect::Kingfisher), quietKingfisher()};
+  for (int loss = 0; loss < 3; ++loss) {
+    examined.connect();
+    examined.pass(8s);
+    EXPECT_EQ("connected to vehicle", examined.of("link").message);
+    examined.disconnect("no byte for 5.0 s");
+    examined.pass(2s);
+  }
+  examined.connect();
+  examined.pass(8s);
+  EXPECT_EQ(Level::Warn, examined.of("link").level);
+  EXPECT_THAT(examined.of("link").message, HasSubstr("lost 3 times in the last minute"));
+  examined.pass(60s);
+  EXPECT_EQ(Level::Ok, examined.of("link").level);
+}
+
 TEST(DiagnosisInTime, PermissionTakenBackIsRedOnlyWhileSomebodyCommands) {
   Examined examined{parametersOf(Dialect::Sandshark), quietSandshark()};
   examined.connect();
@@ -322,7 +339,7 @@ TEST(DiagnosisInTime, AVehicleThatNeverSpeaksIsRedFromTheFirstLossOn) {
   examined.disconnect("no byte for 5.0 s");
   examined.loop.link.edit = nullptr;
   examined.connect();
-  examined.pass(5s);
+  examined.pass(60s);
   EXPECT_EQ(Level::Ok, examined.of("link").level);
 }
 

@@ -40,7 +40,7 @@ class Examined {
   }
   void disconnect(const std::string& reason) {
     loop.disconnect();
-    monitor_.disconnected(reason);
+    monitor_.disconnected(loop.now(), reason);
   }
 
   /// Lets time pass; publishes `wanted` ten times a second, if there is any.
