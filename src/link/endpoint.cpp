@@ -10,7 +10,8 @@ using boost::system::error_code;
 std::string toText(const tcp::endpoint& endpoint) {
   const std::string address = endpoint.address().to_string();
   const std::string port = std::to_string(endpoint.port());
-  return endpoint.address().is_v6() ? "[" + address + "]:" + port : address + ":" + port;
+  if (endpoint.address().is_v6()) return "[" + address + "]:" + port;
+  return address + ":" + port;
 }
 
 std::optional<tcp::endpoint> numericEndpoint(const std::string& host, std::uint16_t port) {

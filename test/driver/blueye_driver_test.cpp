@@ -13,6 +13,7 @@
 
 #include "blueye/control.pb.h"
 #include "blueye/req_rep.pb.h"
+#include "blueye/telemetry.pb.h"
 
 namespace frontseat_driver::driver {
 namespace {
@@ -49,6 +50,13 @@ class Drone {
     const std::lock_guard<std::mutex> lock(mutex_);
     return motions_;
   }
+  /// Says whatever it is, again and again.
+  void say(std::vector<std::string> frames) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    says_ = std::move(frames);
+  }
+  /// Takes requests and answers none, unless `on`.
+  void answer(bool on) { answers_ = on; }
   bool heardGoodbye() const { return goodbye_; }
   bool heardAnything() const { return heard_control_; }
 
@@ -58,7 +66,9 @@ class Drone {
     const int none = 0;
     zmq_setsockopt(socket, ZMQ_LINGER, &none, sizeof none);
     if (type == ZMQ_SUB) zmq_setsockopt(socket, ZMQ_SUBSCRIBE, "", 0);
-    zmq_bind(socket, "tcp://127.0.0.1:*");
+    const std::string where = "tcp://127.0.0.1:" + (port == 0 ? "*" : std::to_string(port));
+    while (zmq_bind(socket, where.c_str()) != 0) {  // the port of a socket just closed
+    }
     char address[64] = {};
     std::size_t size = sizeof address;
     zmq_getsockopt(socket, ZMQ_LAST_ENDPOINT, address, &size);
@@ -77,14 +87,24 @@ class Drone {
     while (!done_) {
       zmq_pollitem_t items[] = {{requests_, 0, ZMQ_POLLIN, 0}, {control_, 0, ZMQ_POLLIN, 0}};
       zmq_poll(items, 2, 5);
+      speak();
       if ((items[0].revents & ZMQ_POLLIN) != 0) answer();
       if ((items[1].revents & ZMQ_POLLIN) != 0) obey();
+    }
+  }
+
+  void speak() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t i = 0; i < says_.size(); ++i) {
+      const int more = i + 1 < says_.size() ? ZMQ_SNDMORE : 0;
+      zmq_send(telemetry_, says_[i].data(), says_[i].size(), more);
     }
   }
 
   void answer() {
     const std::string type = receive(requests_);
     const std::string payload = receive(requests_);
+    if (!answers_) return refuse();
     std::string name = "google.protobuf.Empty";
     std::string bytes;
     if (type == "blueye.protocol.ConnectClientReq") {
@@ -103,6 +123,12 @@ class Drone {
     zmq_send(requests_, bytes.data(), bytes.size(), 0);
   }
 
+  /// Leaves the request without a reply, and is ready for the next one.
+  void refuse() {
+    zmq_close(requests_);
+    requests_ = bound(ZMQ_REP, request_port_);
+  }
+
   void obey() {
     const std::string type = receive(control_);
     const std::string payload = receive(control_);
@@ -119,25 +145,39 @@ class Drone {
   std::uint16_t request_port_ = 0;
   std::uint16_t control_port_ = 0;
   void* const telemetry_ = bound(ZMQ_PUB, telemetry_port_);
-  void* const requests_ = bound(ZMQ_REP, request_port_);
+  void* requests_ = bound(ZMQ_REP, request_port_);
   void* const control_ = bound(ZMQ_SUB, control_port_);
   std::uint32_t last_id_ = 0;
+  std::atomic<bool> answers_{true};
   std::atomic<bool> goodbye_{false};
   std::atomic<bool> heard_control_{false};
   mutable std::mutex mutex_;
   std::vector<pb::MotionInput> motions_;
+  std::vector<std::string> says_;
   std::atomic<bool> done_{false};
   std::thread thread_;
 };
 
 struct Listener : BlueyeLinkListener, session::BlueyeListener {
   void onConnected(const vehicle::Now&, const std::string&) override { connected = true; }
-  void onDisconnected(const vehicle::Now&, const std::string&) override { connected = false; }
-  void onConnectFailed(const vehicle::Now&, const std::string&) override {}
+  void onDisconnected(const vehicle::Now&, const std::string&) override {
+    connected = false;
+    ++losses;
+  }
+  void onConnectFailed(const vehicle::Now&, const std::string&) override { ++failures; }
   void onControlSent(const vehicle::Now&, std::string_view, std::string_view) override {}
-  void onRequestSent(const vehicle::Now&, std::string_view, std::string_view) override {}
+  void onRequestSent(const vehicle::Now&, std::string_view, std::string_view) override {
+    ++requests;
+  }
   void onTick(const vehicle::Now&) override {}
-  void telemetry(const vehicle::Now&, std::string_view, std::string_view) override {}
+  void telemetry(const vehicle::Now&, std::string_view type, std::string_view payload) override {
+    ++messages;
+    pb::DepthTel told;
+    if (type == "blueye.protocol.DepthTel" &&
+        told.ParseFromArray(payload.data(), static_cast<int>(payload.size()))) {
+      depth_m = told.depth().value();
+    }
+  }
   void event(const vehicle::Now&, const vehicle::Event& event) override {
     if (const auto* control = std::get_if<vehicle::Control>(&event)) grant = control->grant;
   }
@@ -145,6 +185,11 @@ struct Listener : BlueyeLinkListener, session::BlueyeListener {
   void note(const std::string&) override {}
 
   std::atomic<bool> connected{false};
+  std::atomic<int> losses{0};
+  std::atomic<int> failures{0};
+  std::atomic<int> requests{0};
+  std::atomic<int> messages{0};
+  std::atomic<float> depth_m{0.0F};
   std::atomic<vehicle::Grant> grant{vehicle::Grant::Unknown};
 };
 
@@ -205,6 +250,84 @@ TEST(BlueyeDriver, AnObserverComesAndGoesWithoutAControlMessage) {
   driver.stop();
   EXPECT_TRUE(drone.heardGoodbye());
   EXPECT_FALSE(drone.heardAnything());
+}
+
+template <class Message>
+std::vector<std::string> frames(const Message& message) {
+  return {message.GetTypeName(), message.SerializeAsString()};
+}
+
+pb::DroneTimeTel upFor(std::int64_t seconds) {
+  pb::DroneTimeTel time;
+  time.mutable_monotonic_clock()->mutable_unix_timestamp()->set_seconds(seconds);
+  return time;
+}
+
+TEST(BlueyeDriver, HandsOnWhatTheDroneSaysAndCountsWhatIsNoMessage) {
+  Drone drone;
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  BlueyeDriver driver(drone.options(), session, listener, clocks);
+  driver.start();
+  pb::DepthTel depth;
+  depth.mutable_depth()->set_value(2.5F);
+  drone.say(frames(depth));
+  EXPECT_TRUE(eventually([&] { return listener.depth_m == 2.5F; }));
+  drone.say({"one frame"});
+  std::atomic<std::uint64_t> malformed{0};
+  EXPECT_TRUE(eventually([&] {
+    driver.post([&](const vehicle::Now&) { malformed = session.counters().malformed; });
+    return malformed > 0;
+  }));
+  driver.stop();
+}
+
+TEST(BlueyeDriver, RegistersWithADroneThatDidNotAnswerAtFirst) {
+  Drone drone;
+  drone.answer(false);
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  BlueyeDriver driver(drone.options(), session, listener, clocks);
+  driver.start();
+  ASSERT_TRUE(eventually([&] { return listener.requests > 1; }));
+  EXPECT_EQ(listener.grant, vehicle::Grant::Unknown);
+  drone.answer(true);
+  EXPECT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Denied; }));
+  driver.stop();
+}
+
+TEST(BlueyeDriver, ConnectsAfreshToADroneThatStartedAgain) {
+  Drone drone;
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  BlueyeDriver driver(drone.options(), session, listener, clocks);
+  drone.say(frames(upFor(1000)));
+  driver.start();
+  driver.start();  // has no effect
+  ASSERT_TRUE(eventually(
+      [&] { return listener.grant == vehicle::Grant::Denied && listener.messages > 0; }));
+  ASSERT_TRUE(eventually([&] {
+    drone.say(frames(upFor(listener.losses == 0 ? 5 : 6)));
+    return listener.losses > 0 && listener.connected;
+  }));
+  EXPECT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Denied; }));
+  driver.stop();
+  driver.stop();  // nor has this
+}
+
+TEST(BlueyeDriver, TellsOfADroneThatIsNotThere) {
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  link::ZmqClient::Options options;
+  {
+    Drone gone;
+    options = gone.options();
+  }
+  options.connect_timeout = 50ms;
+  BlueyeDriver driver(options, session, listener, clocks);
+  driver.start();
+  EXPECT_TRUE(eventually([&] { return listener.failures > 0; }));
+  driver.stop();
 }
 
 TEST(BlueyeDriver, StopsSoonWithoutADrone) {

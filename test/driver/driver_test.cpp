@@ -5,6 +5,7 @@
 
 #include <future>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "test/driver/fake_parts.h"
@@ -12,6 +13,7 @@
 namespace frontseat_driver::driver::testing {
 namespace {
 
+using link::testing::RawVehicle;
 using link::testing::ReservedPort;
 using link::testing::waitUntil;
 using std::chrono::milliseconds;
@@ -80,6 +82,22 @@ TEST(Driver, WhatWasNotTakenWasNotSent) {
   rig.driver.stop();
   EXPECT_GE(steps, 1);
   EXPECT_FALSE(rig.log.has("sent $BPVER*1A"));
+}
+
+TEST(Driver, ToldOfAVehicleThatTakesNothing) {
+  const RawVehicle vehicle(4096);
+  Rig rig("127.0.0.1", vehicle.port());
+  rig.driver.start();
+  const auto deaf = vehicle.accept();
+  std::atomic<bool> congested{false};
+  EXPECT_TRUE(waitUntil([&] {
+    rig.driver.post([&](const Now& now) {
+      rig.driver.output().send(now, "$BPVER*1A\r\n");
+      congested = rig.driver.output().congested();
+    });
+    return congested.load();
+  }));
+  rig.driver.stop();
 }
 
 /// The wait after the fourth loss and one failed attempt, when only the last connection was good
@@ -161,12 +179,13 @@ milliseconds lateness(milliseconds planned, milliseconds asked) {
   Rig rig("127.0.0.1", port.port());
   std::promise<SteadyTime> stepped;
   const auto begin = steady_clock::now();
+  bool of_the_task = true;
   rig.session.next_step = begin + planned;
   rig.driver.start();
   rig.driver.post([&](const Now&) {
     rig.session.next_step = begin + asked;
     rig.session.on_step = [&](const Now& now, session::Output&) {
-      if (now.steady < begin + milliseconds(20)) return;  // the step that follows this task
+      if (std::exchange(of_the_task, false)) return;  // the step that follows this task
       if (rig.session.next_step != SteadyTime::max()) stepped.set_value(now.steady);
       rig.session.next_step = SteadyTime::max();
     };

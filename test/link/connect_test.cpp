@@ -8,6 +8,7 @@
 #include "frontseat_driver/link/tcp_server.h"
 #include "test/link/interposed.h"
 #include "test/link/loopback.h"
+#include "test/link/no_more_files.h"
 
 namespace frontseat_driver::link::testing {
 namespace {
@@ -156,6 +157,21 @@ TEST(Connect, FindsAVehicleThatComesUpLater) {
   ASSERT_TRUE(runUntil(io, [&] { return log.failures.size() == 2; }));
   ServerLog vehicle;
   const TcpServer server(io, "127.0.0.1", port.port(), vehicle);
+  EXPECT_TRUE(runUntil(io, [&] { return client.connected(); }));
+}
+
+TEST(Connect, WaitsUntilAFileCanBeOpened) {
+  boost::asio::io_context io;
+  ServerLog vehicle;
+  const TcpServer server(io, "127.0.0.1", 0, vehicle);
+  ClientLog log;
+  TcpClient client(io, quickOptions("127.0.0.1", server.port()), log);
+  {
+    const NoMoreFiles scarce;
+    client.start();
+    ASSERT_TRUE(runUntil(io, [&] { return !log.failures.empty(); }));
+    EXPECT_EQ(log.failures[0], "too many open files");
+  }
   EXPECT_TRUE(runUntil(io, [&] { return client.connected(); }));
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <boost/asio/ip/tcp.hpp>
 #include <boost/system/system_error.hpp>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "frontseat_driver/link/tcp_client.h"
 #include "test/link/loopback.h"
+#include "test/link/no_more_files.h"
 
 namespace frontseat_driver::link::testing {
 namespace {
@@ -149,6 +151,18 @@ TEST_P(BindFailure, NamesAddressAndPort) {
 
 INSTANTIATE_TEST_SUITE_P(Table, BindFailure, ::testing::ValuesIn(kBadBinds),
                          [](const auto& row) { return std::string{row.param.name}; });
+
+TEST_F(Server, TakesAClientThatCameWhileNoFileCouldBeOpened) {
+  using boost::asio::ip::tcp;
+  tcp::socket client(io, tcp::v4());
+  {
+    const NoMoreFiles scarce;
+    client.connect({boost::asio::ip::make_address("127.0.0.1"), server.port()});
+    io.run_for(milliseconds(50));
+    EXPECT_TRUE(vehicle.connected.empty());
+  }
+  EXPECT_TRUE(runUntil(io, [&] { return vehicle.connected.size() == 1; }));
+}
 
 TEST_F(Server, ASecondOneOnThePortIsRefused) {
   EXPECT_THROW(TcpServer(io, "127.0.0.1", server.port(), vehicle), boost::system::system_error);

@@ -4,8 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 #include <zmq.h>
 
 #include <algorithm>
@@ -14,14 +12,16 @@
 #include <thread>
 #include <vector>
 
-namespace frontseat_driver::link {
+#include "test/link/no_more_files.h"
+
+namespace frontseat_driver::link::testing {
 namespace {
 
 using namespace std::chrono_literals;
 using Clock = std::chrono::steady_clock;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 
 using Message = std::vector<std::string>;
 
@@ -123,7 +123,7 @@ struct Recorder : ZmqClient::Handler {
   int malformed = 0;
 };
 
-class ZmqLink : public testing::Test {
+class ZmqLink : public ::testing::Test {
  protected:
   ~ZmqLink() override {
     client_.reset();
@@ -286,32 +286,6 @@ TEST_F(ZmqLink, ReportsAHostThatIsNoneAndTriesAgain) {
   }
 }
 
-/// No file can be opened while it lives.
-class NoMoreFiles {
- public:
-  NoMoreFiles() {
-    getrlimit(RLIMIT_NOFILE, &before_);
-    rlimit few = before_;
-    few.rlim_cur = std::min<rlim_t>(few.rlim_cur, 256);
-    setrlimit(RLIMIT_NOFILE, &few);
-    takeAll();
-  }
-  /// Those as well that were closed since.
-  void takeAll() {
-    for (int file = dup(2); file >= 0; file = dup(2)) files_.push_back(file);
-  }
-  ~NoMoreFiles() {
-    for (const int file : files_) close(file);
-    setrlimit(RLIMIT_NOFILE, &before_);
-  }
-  NoMoreFiles(const NoMoreFiles&) = delete;
-  NoMoreFiles& operator=(const NoMoreFiles&) = delete;
-
- private:
-  rlimit before_{};
-  std::vector<int> files_;
-};
-
 TEST_F(ZmqLink, SurvivesThatNoSocketCanBeOpened) {
   start();
   connect();
@@ -407,4 +381,4 @@ TEST_F(ZmqLink, LosesNothingOfAKilohertzOfTelemetryWithSonarImages) {
 }
 
 }  // namespace
-}  // namespace frontseat_driver::link
+}  // namespace frontseat_driver::link::testing

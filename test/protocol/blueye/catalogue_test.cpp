@@ -98,6 +98,67 @@ TEST(BlueyeCatalogue, TellsFieldsByTheirPaths) {
   EXPECT_THAT(values, Contains(Pair("system_performance_info.cpu_cores[0].load", "0.25")));
   EXPECT_THAT(values, Contains(Pair("system_performance_info.memory.total_bytes", "1000")));
   EXPECT_THAT(catalogue.values("TeleportTel", ""), IsEmpty());
+  EXPECT_THAT(catalogue.values("DepthTel", "\xff\xff"), IsEmpty());
+}
+
+struct Written {
+  const char* type;
+  const char* json;
+  const char* path;
+  const char* value;
+};
+
+void PrintTo(const Written& row, std::ostream* out) { *out << row.type << " " << row.path; }
+
+class BlueyeValue : public testing::TestWithParam<Written> {};
+
+TEST_P(BlueyeValue, IsTextOfItsKind) {
+  const BlueyeCatalogue catalogue;
+  const auto bytes = catalogue.fromJson(GetParam().type, GetParam().json);
+  ASSERT_TRUE(bytes.ok) << bytes.text;
+  EXPECT_THAT(catalogue.values(GetParam().type, bytes.text),
+              Contains(Pair(GetParam().path, GetParam().value)));
+}
+
+constexpr Written kWritten[] = {
+    {"RecordStateTel", R"({"record_state": {"main_is_recording": true, "main_seconds": -1}})",
+     "record_state.main_is_recording", "true"},
+    {"RecordStateTel", R"({"record_state": {"main_seconds": -1}})",
+     "record_state.main_is_recording", "false"},
+    {"RecordStateTel", R"({"record_state": {"main_seconds": -1}})", "record_state.main_seconds",
+     "-1"},
+    {"DepthTel", R"({"depth": {"value": 1.25}})", "depth.value", "1.25"},
+    {"PositionEstimateTel", R"({"position_estimate": {"northing": -0.1}})",
+     "position_estimate.northing", "-0.1"},
+    {"ConnectedClientsTel", R"({"connected_clients": [{"client_id": 4000000000}]})",
+     "connected_clients[0].client_id", "4000000000"},
+    {"ConnectedClientsTel", R"({"connected_clients": [{}, {"client_info": {"name": "a b"}}]})",
+     "connected_clients[1].client_info.name", "a b"},
+    {"CalibrationStateTel", R"({"calibration_state": {"status": 3}})", "calibration_state.status",
+     "STATUS_CALIBRATING_X_POSITIVE"},
+    {"CalibrationStateTel", R"({"calibration_state": {"status": 99}})", "calibration_state.status",
+     "99"},
+    {"MultibeamPingTel", R"({"ping": {"bearings": [0.5, -0.25]}})", "ping.bearings[1]", "-0.25"},
+    {"MissionStatusTel", R"({"mission_status": {"completed_instruction_ids": [7, 8]}})",
+     "mission_status.completed_instruction_ids[0]", "7"},
+    {"BinlogRecord", R"({"unix_timestamp": "1970-01-01T00:00:01Z"})", "unix_timestamp.seconds",
+     "1"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Table, BlueyeValue, testing::ValuesIn(kWritten));
+
+TEST(BlueyeCatalogue, TellsOfOneofOnlyTheOneThatIsThere) {
+  const BlueyeCatalogue catalogue;
+  const auto bytes =
+      catalogue.fromJson("GuestPortInfo", R"({"gp1": {"error": "GUEST_PORT_ERROR_READ_ERROR"}})");
+  ASSERT_TRUE(bytes.ok) << bytes.text;
+  const auto values = catalogue.values("blueye.protocol.GuestPortInfo", bytes.text);
+  EXPECT_THAT(values, Contains(Pair("gp1.error", "GUEST_PORT_ERROR_READ_ERROR")));
+  const auto none = catalogue.fromJson("GuestPortInfo", R"({"gp1": {}})");
+  ASSERT_TRUE(none.ok) << none.text;
+  for (const auto& [path, value] : catalogue.values("GuestPortInfo", none.text)) {
+    EXPECT_NE(path, "gp1.error") << value;
+  }
 }
 
 }  // namespace
