@@ -7,6 +7,7 @@
 
 #include "deck.h"
 #include "frontseat_driver/sim/random.h"
+#include "reflection.h"
 
 namespace frontseat_driver::sim {
 namespace {
@@ -128,6 +129,32 @@ INSTANTIATE_TEST_SUITE_P(Table, NotANumber,
                          testing::Values(std::numeric_limits<float>::quiet_NaN(),
                                          std::numeric_limits<float>::infinity(),
                                          -std::numeric_limits<float>::infinity()));
+
+/// NaN as the first number of a message, or of the message that is its first field.
+TEST(Hostile, NaNIsRefusedUnderEveryNameThatHasANumberThere) {
+  using std::string_literals::operator""s;
+  const std::string kPayloads[] = {"\x0d\x00\x00\xc0\x7f"s, "\x0a\x05\x0d\x00\x00\xc0\x7f"s,
+                                   "\x0a\x09\x09\x00\x00\x00\x00\x00\x00\xf8\x7f"s};
+  Deck deck;
+  deck.connect();
+  for (const std::string& payload : kPayloads) {
+    for (const std::string& name : BlueyeDrone::knownControls()) {
+      const std::uint64_t before = deck.drone.counts().refused;
+      deck.drone.control("blueye.protocol." + name, payload);
+      const std::uint64_t after = isFinite(name, payload) ? before : before + 1;
+      EXPECT_GE(deck.drone.counts().refused, after) << name;
+    }
+    for (const std::string& name : BlueyeDrone::knownRequests()) {
+      deck.replies.clear();
+      deck.drone.request("peer", "blueye.protocol." + name, payload);
+      deck.drone.step(deck.drone.now(), deck);
+      ASSERT_EQ(deck.replies.size(), 1U) << name;
+    }
+  }
+  EXPECT_GT(deck.drone.counts().refused, 20U);
+  deck.run(0.2);
+  EXPECT_TRUE(sane(deck.state()));
+}
 
 TEST(Hostile, ValuesBeyondTheirRangeAreLimited) {
   Deck deck;
