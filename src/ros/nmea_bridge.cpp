@@ -105,16 +105,16 @@ void NmeaBridge::startRecordAgain(Restart what) {
   transitions_ = {};
 }
 
-// A record is a record: what is replayed keeps its name. Each run of a driver counts from 1, so its
-// begin tells two runs in one record apart.
-std::string NmeaBridge::connection() const {
-  if (replay_) return replay_->connection();
-  return printed("connection_%u@%.3f", connects_, inSeconds(started_));
+// A record is a record: what is replayed keeps its name.
+const std::string& NmeaBridge::connection() const {
+  return replay_ ? replay_->connection() : connection_;
 }
 
 void NmeaBridge::onConnected(const vehicle::Now& now, const std::string& endpoint) {
   monitor_.connected(now, endpoint);
   ++connects_;
+  // Each run of a driver counts from 1, so its begin tells two runs in one record apart.
+  connection_ = printed("connection_%u@%.3f", connects_, inSeconds(started_));
   connected_ = true;
   logged_failure_.clear();
   if (connect_log_.passes(now.steady)) {

@@ -51,7 +51,7 @@ class NmeaBridge : private driver::Listener {
 
   void post(SessionTask task);
   void startRecordAgain(Restart what);
-  std::string connection() const;
+  const std::string& connection() const;
   void followDialect();
   void watchCompass(const vehicle::Now& now, const vehicle::Event& event);
   void warnOfJumps(const vehicle::Now& now);
@@ -71,6 +71,7 @@ class NmeaBridge : private driver::Listener {
   std::optional<protocol::Dialect> followed_dialect_;
   bool connected_ = false;
   std::uint32_t connects_ = 0;
+  std::string connection_;      ///< the present or last one, as `nmea/rx` names it
   std::string logged_failure_;  ///< to connect, since the last connection
   Throttle connect_log_;
   Throttle disconnect_log_;
