@@ -1,6 +1,7 @@
 #include "vehicle_publisher.h"
 
 #include <frontseat_driver/Sentence.h>
+#include <ros/topic_manager.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
@@ -35,7 +36,6 @@ void publishShared(const ros::Publisher& publisher, Message message) {
 
 void publishSentence(const ros::Publisher& publisher, const vehicle::Now& now,
                      const std::string& connection, std::string_view line) {
-  if (publisher.getNumSubscribers() == 0) return;
   Sentence sentence;
   sentence.header.stamp = toRosTime(now.stamp);
   sentence.header.frame_id = connection;
@@ -45,12 +45,16 @@ void publishSentence(const ros::Publisher& publisher, const vehicle::Now& now,
 
 }  // namespace
 
+VehiclePublisher::Topic::Topic(const ros::Publisher& advertised)
+    : publisher(advertised),
+      publication(ros::TopicManager::instance()->lookupPublication(advertised.getTopic())) {}
+
 VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const Parameters& parameters)
-    : messages_(parameters), publish_tf_(parameters.publish_tf) {
+    : messages_(parameters) {
   const bool replay = parameters.source == Source::Topic;
   const std::uint32_t queue = replay ? kUnlimited : kQueue;
   const auto advertise = [&](VehicleTopic topic, const char* name, auto message) {
-    at(topic) = node.advertise<decltype(message)>(name, queue, isLatched(topic));
+    at(topic) = Topic{node.advertise<decltype(message)>(name, queue, isLatched(topic))};
   };
   advertise(VehicleTopic::Odom, topics::kOdom, nav_msgs::Odometry{});
   advertise(VehicleTopic::ImuData, topics::kImuData, sensor_msgs::Imu{});
@@ -71,11 +75,11 @@ VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const Parameters& param
   advertise(VehicleTopic::InterfaceVersion, topics::kInterfaceVersion, InterfaceVersion{});
   advertise(VehicleTopic::Shutdown, topics::kShutdown, ShutdownNotice{});
   advertise(VehicleTopic::Ack, topics::kAck, CommandAck{});
-  if (publish_tf_) advertise(VehicleTopic::Transform, "/tf", tf2_msgs::TFMessage{});
+  if (parameters.publish_tf) advertise(VehicleTopic::Transform, "/tf", tf2_msgs::TFMessage{});
   link_ = node.advertise<LinkStatus>(topics::kLink, queue, true);
   const std::uint32_t record_queue = replay ? kUnlimited : kRecordQueue;
-  received_ = node.advertise<Sentence>(topics::kNmeaReceived, record_queue);
-  sent_ = node.advertise<Sentence>(topics::kNmeaSent, record_queue);
+  received_ = Topic{node.advertise<Sentence>(topics::kNmeaReceived, record_queue)};
+  sent_ = Topic{node.advertise<Sentence>(topics::kNmeaSent, record_queue)};
   if (!parameters.publish_frd_frames) return;
   vehicle::Now now;
   now.stamp = toUtcTime(ros::Time::now());
@@ -85,33 +89,33 @@ VehiclePublisher::VehiclePublisher(ros::NodeHandle node, const Parameters& param
 }
 
 bool VehiclePublisher::wanted(VehicleTopic topic) const {
-  if (topic == VehicleTopic::Transform) return publish_tf_;
-  return isLatched(topic) || at(topic).getNumSubscribers() > 0;
+  return isLatched(topic) || at(topic).hasSubscribers();
 }
 
 void VehiclePublisher::publish(VehicleTopic topic, VehicleMessage message) {
   if (auto* transform = std::get_if<geometry_msgs::TransformStamped>(&message)) {
     tf2_msgs::TFMessage transforms;
     transforms.transforms.push_back(std::move(*transform));
-    return publishShared(at(topic), std::move(transforms));
+    return publishShared(at(topic).publisher, std::move(transforms));
   }
-  std::visit([&](auto&& any) { publishShared(at(topic), std::forward<decltype(any)>(any)); },
+  const ros::Publisher& publisher = at(topic).publisher;
+  std::visit([&](auto&& any) { publishShared(publisher, std::forward<decltype(any)>(any)); },
              std::move(message));
 }
 
 void VehiclePublisher::publishReceived(const vehicle::Now& now, const std::string& connection,
                                        std::string_view line) const {
-  publishSentence(received_, now, connection, line);
+  if (received_.hasSubscribers()) publishSentence(received_.publisher, now, connection, line);
 }
 
 void VehiclePublisher::publishSent(const vehicle::Now& now, const std::string& connection,
                                    std::string_view line) const {
-  publishSentence(sent_, now, connection, line);
+  if (sent_.hasSubscribers()) publishSentence(sent_.publisher, now, connection, line);
 }
 
 std::vector<ros::Publisher> VehiclePublisher::publishers() const {
-  std::vector<ros::Publisher> all(topics_.begin(), topics_.end());
-  all.insert(all.end(), {link_, received_, sent_});
+  std::vector<ros::Publisher> all{link_, received_.publisher, sent_.publisher};
+  for (const Topic& topic : topics_) all.push_back(topic.publisher);
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <frontseat_driver/LinkStatus.h>
 #include <ros/node_handle.h>
+#include <ros/publication.h>
 #include <ros/publisher.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
@@ -19,7 +20,7 @@
 namespace frontseat_driver::ros_layer {
 
 /// Puts what the vehicle tells on its topics. A message nobody subscribes to is not even built,
-/// except what is latched and tf. Not safe for concurrent use: one thread tells it everything.
+/// except what is latched. Not safe for concurrent use: one thread tells it everything.
 class VehiclePublisher : private MessageOutlet {
  public:
   VehiclePublisher(ros::NodeHandle node, const Parameters& parameters);
@@ -56,20 +57,29 @@ class VehiclePublisher : private MessageOutlet {
  private:
   static constexpr auto kTopics = static_cast<std::size_t>(VehicleTopic::Count);
 
+  /// An advertised topic that can tell for each sentence whether somebody subscribes to it. To ask
+  /// the publisher costs ten times as much: it looks the topic up by name, under a lock that the
+  /// thread which sends the messages holds most of the time.
+  struct Topic {
+    Topic() = default;
+    explicit Topic(const ros::Publisher& advertised);
+    bool hasSubscribers() const { return publication && publication->hasSubscribers(); }
+
+    ros::Publisher publisher;
+    ros::PublicationPtr publication;
+  };
+
   bool wanted(VehicleTopic topic) const override;
   void publish(VehicleTopic topic, VehicleMessage message) override;
-  ros::Publisher& at(VehicleTopic topic) { return topics_[static_cast<std::size_t>(topic)]; }
-  const ros::Publisher& at(VehicleTopic topic) const {
-    return topics_[static_cast<std::size_t>(topic)];
-  }
+  Topic& at(VehicleTopic topic) { return topics_[static_cast<std::size_t>(topic)]; }
+  const Topic& at(VehicleTopic topic) const { return topics_[static_cast<std::size_t>(topic)]; }
 
   VehicleMessages messages_;
-  const bool publish_tf_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
-  std::array<ros::Publisher, kTopics> topics_;
+  std::array<Topic, kTopics> topics_;
   ros::Publisher link_;
-  ros::Publisher received_;
-  ros::Publisher sent_;
+  Topic received_;
+  Topic sent_;
 };
 
 }  // namespace frontseat_driver::ros_layer
