@@ -31,10 +31,11 @@ using std::chrono::milliseconds;
 
 namespace {
 
+/// At most in one go, so that a vehicle that floods leaves time for timers and posted tasks: an
+/// abort waits for some 200 sentences.
 constexpr std::size_t kReadSize = 16384;
-/// Reads in one go at most, so that a vehicle that floods leaves time for timers and posted tasks:
-/// an abort waits for some 800 sentences.
-constexpr int kReadsPerTurn = 4;
+/// From a connection that is about to be ended; the vehicle may flood.
+constexpr int kLastReads = 4;
 /// Commands that the vehicle does not take must not pile up in the kernel: some dozen sentences.
 constexpr int kSendBuffer = 16384;
 constexpr milliseconds kCloseLimit{50};
@@ -118,9 +119,11 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
   }
 
   /// A completion handler that does nothing once the state that it was made in has been left.
-  auto then(Step step) {
-    return [self = shared_from_this(), epoch = epoch_, step](const error_code& error) {
-      if (epoch == self->epoch_) ((*self).*step)(error);
+  template <class... Result>
+  auto then(void (Impl::*step)(const error_code&, Result...)) {
+    return [self = shared_from_this(), epoch = epoch_, step](const error_code& error,
+                                                             Result... result) {
+      if (epoch == self->epoch_) ((*self).*step)(error, result...);
     };
   }
 
@@ -233,39 +236,28 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     // Without it, a vehicle with Nagle's algorithm on that sends a bundle in two writes waits 40 ms
     // for our acknowledgement when we send in between. The kernel forgets it when we send.
     if (std::exchange(sent_, false)) setTcpOption(socket_, TCP_QUICKACK, 1);
-    // A look at one byte, since async_wait() goes through epoll_ctl() and one more epoll_wait().
-    socket_.async_receive(
-        boost::asio::buffer(&peeked_, 1), tcp::socket::message_peek,
-        [step = then(&Impl::readable)](const error_code& error, std::size_t) { step(error); });
+    // Not async_wait(), which goes through epoll_ctl() and one more epoll_wait().
+    socket_.async_receive(boost::asio::buffer(buffer_), then(&Impl::received));
   }
 
-  void readable(const error_code& error) {
+  void received(const error_code& error, std::size_t size) {
     if (error) return lose(toText(error));
-    if (receive()) waitForBytes();
+    if (handOn(size) && broken_.empty()) waitForBytes();
   }
 
-  /// Hands on what has arrived. False if the connection was lost or closed on the way.
-  bool receive() {
+  /// False if the connection was lost or closed on the way.
+  bool handOn(std::size_t size) {
     const auto epoch = epoch_;
-    for (int i = 0; i < kReadsPerTurn; ++i) {
-      error_code error;
-      const std::size_t size = socket_.read_some(boost::asio::buffer(buffer_), error);
-      if (error == boost::asio::error::would_block) return true;
-      if (error) {
-        lose(toText(error));
-        return false;
-      }
-      last_byte_ = Clock::now();
-      handler_.onBytes({buffer_.data(), size});
-      if (epoch != epoch_) return false;
-      if (size < buffer_.size()) return true;  // that was all there is
-    }
-    return true;
+    last_byte_ = Clock::now();
+    handler_.onBytes({buffer_.data(), size});
+    return epoch == epoch_;
   }
 
   /// The timer is not moved at every read; it moves on when it expires.
   void checkSilence(const error_code&) {
-    if (!receive()) return;  // bytes may have waited while this process did not run
+    error_code ignored;
+    // Bytes may have waited while this process did not run; they are read next.
+    if (socket_.available(ignored) > 0) last_byte_ = Clock::now();
     const auto silent_at = last_byte_ + options_.silence_timeout;
     if (Clock::now() >= silent_at) return lose("no byte for " + seconds(options_.silence_timeout));
     timeOutAt(silent_at, &Impl::checkSilence);
@@ -277,8 +269,16 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     boost::asio::post(io_, [step = then(&Impl::endBroken)] { step(error_code{}); });
   }
 
+  /// The vehicle's last words may have come before the end.
   void endBroken(const error_code&) {
-    if (receive()) lose(broken_);  // the vehicle's last words may have come before the end
+    for (int i = 0; i < kLastReads; ++i) {
+      error_code error;
+      const std::size_t size = socket_.read_some(boost::asio::buffer(buffer_), error);
+      if (error == boost::asio::error::would_block) break;
+      if (error) return lose(toText(error));
+      if (!handOn(size)) return;
+    }
+    lose(broken_);
   }
 
   void lose(const std::string& reason) {
@@ -315,7 +315,6 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
   Clock::time_point last_byte_;
   std::string broken_;  ///< why the connection is about to be ended; empty if it is not
   bool sent_ = false;   ///< since the last wait for bytes
-  char peeked_ = 0;
   std::array<char, kReadSize> buffer_;
 };
 
