@@ -62,6 +62,10 @@ def threads(pid):
     return len(os.listdir("/proc/%d/task" % pid))
 
 
+NODELET = "/usr/lib/nodelet/nodelet"
+if not os.path.exists(NODELET):
+    NODELET = "/opt/ros/noetic/lib/nodelet/nodelet"
+
 MASTER_PORT = free_port()  # one for all runs: rospy keeps the first one that it was told
 
 
@@ -178,9 +182,7 @@ def set_up(programs, args, program, nodelets, times, count, subscription, port, 
     """Starts program and subscriber; returns the process whose cost counts, and the bag's."""
     bag = None
     if nodelets:
-        process = programs.start("/usr/lib/nodelet/nodelet" if os.path.exists(
-            "/usr/lib/nodelet/nodelet") else "/opt/ros/noetic/lib/nodelet/nodelet",
-            "manager", "__name:=manager")
+        process = programs.start(NODELET, "manager", "__name:=manager")
         if program == "driver":
             load_nodelet(programs, "/manager", "/driver", "frontseat_driver/NmeaNodelet",
                          host="127.0.0.1", port=port)
@@ -380,9 +382,7 @@ def one_fleet(args, vehicles):
         wait_until(lambda: is_up(programs), "the master")
         vehicle = Vehicle(programs, times, rate=rate, count=count, vehicles=vehicles, bundle=2,
                           mix=True)
-        process = programs.start("/usr/lib/nodelet/nodelet" if os.path.exists(
-            "/usr/lib/nodelet/nodelet") else "/opt/ros/noetic/lib/nodelet/nodelet",
-            "manager", "__name:=manager")
+        process = programs.start(NODELET, "manager", "__name:=manager")
         for i in range(vehicles):
             load_nodelet(programs, "/manager", "/v%d/driver" % i, "frontseat_driver/NmeaNodelet",
                          host="127.0.0.1", port=vehicle.port, odom_frame="v%d/odom" % i,
@@ -434,9 +434,9 @@ def idle(args):
 
 
 def start_up(args):
-    times_s = {"bare": [], "driver": []}
+    times_s = {"bare node": [], "bare nodelet": [], "driver": []}
     for _ in range(args.repeats):
-        for program in ("bare", "driver"):
+        for program in times_s:
             times_s[program].append(one_start(args, program))
     for program, values in times_s.items():
         print("%s: %.0f ms from process start to the first odom (median of %d)" % (
@@ -453,9 +453,11 @@ def one_start(args, program):
         programs.start(executable("bench_subscriber"), "__name:=subscriber", "_times:=" + times,
                        "_count:=%d" % 12000)
         report(programs)
+        command = {"driver": [executable("nmea_node")], "bare node": [executable("bench_bare")],
+                   "bare nodelet": [NODELET, "standalone", "frontseat_driver_bench/Bare"]}
         began = time.monotonic()
-        programs.start(executable("nmea_node" if program == "driver" else "bench_bare"),
-                       "__name:=driver", "_host:=127.0.0.1", "_port:=%d" % vehicle.port)
+        programs.start(*command[program], "__name:=driver", "_host:=127.0.0.1",
+                       "_port:=%d" % vehicle.port)
         vehicle.line()
         vehicle.process.stdin.write("\n")
         vehicle.process.stdin.flush()
