@@ -83,12 +83,12 @@ class Step {
   }
 
   template <class Message>
-  void publish(VehicleTopic topic, Message message) {
+  void publish(VehicleTopic topic, Message&& message) {
     outlet_.publish(topic, std::move(message));
   }
 
   template <class Message>
-  void publish(VehicleTopic topic, std::optional<Message> message) {
+  void publish(VehicleTopic topic, std::optional<Message>&& message) {
     if (message) outlet_.publish(topic, *std::move(message));
   }
 

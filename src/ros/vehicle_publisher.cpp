@@ -30,7 +30,7 @@ bool isLatched(VehicleTopic topic) {
 
 // Shared, so that a nodelet in the same manager gets it without a copy.
 template <class Message>
-void publishShared(const ros::Publisher& publisher, Message message) {
+void publishShared(const ros::Publisher& publisher, Message&& message) {
   publisher.publish(boost::make_shared<const Message>(std::move(message)));
 }
 
@@ -99,8 +99,7 @@ void VehiclePublisher::publish(VehicleTopic topic, VehicleMessage message) {
     return publishShared(at(topic).publisher, std::move(transforms));
   }
   const ros::Publisher& publisher = at(topic).publisher;
-  std::visit([&](auto&& any) { publishShared(publisher, std::forward<decltype(any)>(any)); },
-             std::move(message));
+  std::visit([&](auto& any) { publishShared(publisher, std::move(any)); }, message);
 }
 
 void VehiclePublisher::publishReceived(const vehicle::Now& now, const std::string& connection,
