@@ -186,7 +186,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
   session::Session& session_;
   Listener& listener_;
   const Clock clock_;
-  boost::asio::io_context io_;
+  boost::asio::io_context io_{1};  // one thread
   boost::asio::executor_work_guard<boost::asio::io_context::executor_type> work_{
       io_.get_executor()};
   boost::asio::steady_timer step_timer_{io_};

@@ -102,13 +102,15 @@ bool isUsable(const vehicle::Position& position) {
   return in_range && (position.latitude_deg != 0.0 || position.longitude_deg != 0.0);
 }
 
-double distance_m(const vehicle::Position& a, const vehicle::Position& b) {
-  const GeographicLib::Geocentric& earth = GeographicLib::Geocentric::WGS84();
-  double ax = 0.0, ay = 0.0, az = 0.0;
-  double bx = 0.0, by = 0.0, bz = 0.0;
-  earth.Forward(a.latitude_deg, a.longitude_deg, 0.0, ax, ay, az);
-  earth.Forward(b.latitude_deg, b.longitude_deg, 0.0, bx, by, bz);
-  return std::hypot(ax - bx, ay - by, az - bz);
+geometry_msgs::Point fromEarthCentre_m(const vehicle::Position& position) {
+  geometry_msgs::Point out;
+  GeographicLib::Geocentric::WGS84().Forward(position.latitude_deg, position.longitude_deg, 0.0,
+                                             out.x, out.y, out.z);
+  return out;
+}
+
+double distance_m(const geometry_msgs::Point& a, const geometry_msgs::Point& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
 ros::Time toRosTime(vehicle::UtcTime time) {

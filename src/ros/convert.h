@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/Point.h>
 #include <geometry_msgs/Quaternion.h>
 #include <geometry_msgs/Vector3.h>
 #include <ros/time.h>
@@ -70,8 +71,10 @@ double wrapHeading_deg(double heading_deg);
 /// Within the world and not the 0, 0 that vehicles send before their first fix.
 bool isUsable(const vehicle::Position& position);
 
-/// Straight through the Earth, at ellipsoid height 0.
-double distance_m(const vehicle::Position& a, const vehicle::Position& b);
+/// From the centre of the Earth to a position at ellipsoid height 0: x to 0 N 0 E, z to the pole.
+geometry_msgs::Point fromEarthCentre_m(const vehicle::Position& position);
+
+double distance_m(const geometry_msgs::Point& a, const geometry_msgs::Point& b);
 
 /// Nearest moment that ros::Time can hold; never throws. Times before 1970 become 0.
 ros::Time toRosTime(vehicle::UtcTime time);

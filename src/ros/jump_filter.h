@@ -1,5 +1,7 @@
 #pragma once
 
+#include <geometry_msgs/Point.h>
+
 #include <cstdint>
 #include <optional>
 
@@ -36,6 +38,7 @@ class JumpFilter {
  private:
   double max_speed_m_s_;
   std::optional<vehicle::Position> last_;
+  geometry_msgs::Point last_place_;  ///< the same from the centre of the Earth
   vehicle::SteadyTime last_arrival_{};
   int in_a_row_ = 0;
   std::uint64_t jumps_ = 0;

@@ -256,10 +256,13 @@ TEST(Positions, ThatCannotBeAreNotUsable) {
 // One second of latitude at 45 N is 30.87 m (111132 m per degree), and of longitude 21.9 m
 // (78847 m per degree).
 TEST(Distance, IsInMeters) {
-  EXPECT_NEAR(distance_m({45.0, 10.0}, {45.001, 10.0}), 111.13, 0.01);
-  EXPECT_NEAR(distance_m({45.0, 10.0}, {45.0, 10.001}), 78.85, 0.01);
-  EXPECT_NEAR(distance_m({45.0, 179.9995}, {45.0, -179.9995}), 78.85, 0.01);
-  EXPECT_EQ(distance_m({45.0, 10.0}, {45.0, 10.0}), 0.0);
+  const auto apart_m = [](const vehicle::Position& a, const vehicle::Position& b) {
+    return distance_m(fromEarthCentre_m(a), fromEarthCentre_m(b));
+  };
+  EXPECT_NEAR(apart_m({45.0, 10.0}, {45.001, 10.0}), 111.13, 0.01);
+  EXPECT_NEAR(apart_m({45.0, 10.0}, {45.0, 10.001}), 78.85, 0.01);
+  EXPECT_NEAR(apart_m({45.0, 179.9995}, {45.0, -179.9995}), 78.85, 0.01);
+  EXPECT_EQ(apart_m({45.0, 10.0}, {45.0, 10.0}), 0.0);
 }
 
 TEST(RosTime, KeepsNanoseconds) {
