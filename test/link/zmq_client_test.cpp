@@ -220,6 +220,15 @@ TEST_F(ZmqLink, GoesOnAfterALostReplyAndNeverTakesALateOneForTheNext) {
   EXPECT_THAT(recorder_.disconnected, IsEmpty());
 }
 
+TEST_F(ZmqLink, TakesAnAddressOfIpv6WithAndWithoutBrackets) {
+  for (const char* host : {"::1", "[::1]"}) {
+    recorder_.failed.clear();
+    start([&](ZmqClient::Options& options) { options.host = host; });
+    ASSERT_TRUE(runUntil([&] { return !recorder_.failed.empty(); })) << host;  // none listens there
+    EXPECT_THAT(recorder_.failed[0], HasSubstr("[::1]:")) << host;
+  }
+}
+
 TEST_F(ZmqLink, CountsMessagesThatHaveNotTwoFrames) {
   start();
   connect();

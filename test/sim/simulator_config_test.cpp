@@ -63,8 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Value{"legs", "10 0 2 1.5, 20 0 0 1", "[10, 0, 2, 1.5, 20, 0, 0, 1]"},
                     Value{"legs", "", "[]"}, Value{"drop", "0.25", "0.25"},
                     Value{"loop_corners", "0 0 10 0 10 10", "[0, 0, 10, 0, 10, 10]"},
-                    Value{"yaw_rate_unit", "deg", "deg"}, Value{"solution_age", "0.05", "0.05"},
-                    Value{"clock_offset", "-18", "-18"}),
+                    Value{"yaw_rate_unit", "deg", "deg"}, Value{"yaw_rate_unit", "rad", "rad"},
+                    Value{"imu_name", "IMU", "IMU"}, Value{"imu_name", "RIM", "RIM"},
+                    Value{"solution_age", "0.05", "0.05"}, Value{"clock_offset", "-18", "-18"}),
     [](const auto& row) { return std::string{row.param.name} + "_" + std::to_string(row.index); });
 
 class Refused : public testing::TestWithParam<Value> {};
@@ -125,6 +126,18 @@ TEST(SimulatorParameters, ReachTheVehicle) {
   const auto& sandshark = dynamic_cast<const SandsharkFrontseat&>(*frontseat);
   ASSERT_EQ(sandshark.mission().plan().legs.size(), 1U);
   EXPECT_DOUBLE_EQ(sandshark.mission().plan().legs[0].to.east_m, 100.0);
+}
+
+TEST(SimulatorParameters, ReachTheBoat) {
+  SimulatorConfig config;
+  for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"dialect", "kingfisher"}, {"start", "5 -7 0"}, {"noise", "false"}}) {
+    ASSERT_EQ(setParameter(config, name, value), std::nullopt);
+  }
+  const auto frontseat = makeFrontseat(config, kNoon);
+  EXPECT_DOUBLE_EQ(frontseat->model().state().east_m, 5.0);
+  EXPECT_DOUBLE_EQ(frontseat->model().state().north_m, -7.0);
+  EXPECT_NE(dynamic_cast<const KingfisherFrontseat*>(frontseat.get()), nullptr);
 }
 
 }  // namespace

@@ -149,6 +149,33 @@ TEST(Multibeam, PingsWhenActivatedAsItIsConfigured) {
   EXPECT_EQ(deck.count<bp::MultibeamPingTel>(), 0U);
 }
 
+struct Resolution {
+  bp::MultibeamConfig::MaximumNumberOfBeams most;
+  std::uint32_t beams;
+};
+class MultibeamResolution : public testing::TestWithParam<Resolution> {};
+
+TEST_P(MultibeamResolution, IsTheOneAskedFor) {
+  BlueyeConfig config = quietDrone();
+  config.multibeam.beams = 1024;
+  config.multibeam.ranges = 10;
+  Deck deck{config};
+  bp::ActivateMultibeamCtrl activate;
+  activate.mutable_config()->set_maximum_number_of_beams(GetParam().most);
+  deck.tell(activate);
+  deck.run(0.5);
+  const auto ping = deck.latest<bp::MultibeamPingTel>().ping();
+  EXPECT_EQ(ping.number_of_beams(), GetParam().beams);
+  EXPECT_EQ(ping.ping_data().size(), GetParam().beams * 10U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, MultibeamResolution,
+    testing::Values(Resolution{bp::MultibeamConfig::MAXIMUM_NUMBER_OF_BEAMS_MAX_128, 128},
+                    Resolution{bp::MultibeamConfig::MAXIMUM_NUMBER_OF_BEAMS_MAX_256, 256},
+                    Resolution{bp::MultibeamConfig::MAXIMUM_NUMBER_OF_BEAMS_MAX_512, 512},
+                    Resolution{bp::MultibeamConfig::MAXIMUM_NUMBER_OF_BEAMS_MAX_1024, 1024}));
+
 TEST(Multibeam, SendsAMegabyteTwentyTimesASecondIfItIsToldSo) {
   BlueyeConfig config = quietDrone();
   config.multibeam = {1024, 1024, 20.0, true};

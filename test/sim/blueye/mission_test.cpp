@@ -437,6 +437,23 @@ TEST(Mission, IsAbortedWhenTheClientInControlIsLost) {
   EXPECT_FALSE(deck.latest<bp::ControlModeTel>().state().auto_pilot_heave());
 }
 
+TEST(Mission, IsAbortedInItsPauseWhenTheClientInControlIsLost) {
+  Deck deck;
+  deck.connect();
+  Plan plan;
+  plan.depth(10.0F);
+  load(deck, plan);
+  deck.tell(bp::RunMissionCtrl{});
+  deck.run(2.0);
+  deck.tell(bp::PauseMissionCtrl{});
+  deck.run(1.0);
+  ASSERT_EQ(status(deck).state(), bp::MISSION_STATE_PAUSED);
+  deck.pets = 0;
+  deck.run(4.0);
+  EXPECT_EQ(status(deck).state(), bp::MISSION_STATE_ABORTED);
+  EXPECT_THAT(deck.notifications(), Contains(bp::NOTIFICATION_TYPE_MISSION_ABORTED));
+}
+
 TEST(Mission, IsAbortedWhenItDoesNotGetOn) {
   BlueyeConfig config = quietDrone();
   config.environment.current_drift_m_s = 1.9;  // more than it can swim against

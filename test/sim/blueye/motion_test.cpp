@@ -1,4 +1,5 @@
 // Stick to telemetry, axis by axis: the numbers on the wire are those of the document.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -266,6 +267,36 @@ TEST(BlueyeMotion, ResetStartsTheEstimateAnewAndTellsItsPlaceOnTheGlobe) {
   // A degree of longitude is 109.64 km at 10 degrees of latitude.
   EXPECT_NEAR(estimate.global_position().longitude(), 20.0 + estimate.easting() / 109639.0, 2e-6);
   EXPECT_LE(estimate.time_since_reset_sec(), 10);
+}
+
+TEST(BlueyeMotion, ResetTakesThePilotsPlaceOrSaysThatThereIsNone) {
+  BlueyeConfig config = quietDrone();
+  config.devices = {BlueyeDevice::Dvl};
+  Deck deck{config};
+  bp::ResetPositionCtrl reset;
+  reset.mutable_settings()->set_reset_coordinate_source(bp::RESET_COORDINATE_SOURCE_DEVICE_GPS);
+  deck.tell(reset);
+  deck.run(1.0);
+  EXPECT_THAT(deck.notifications(),
+              testing::Contains(bp::NOTIFICATION_TYPE_USER_POSITION_IS_UNKNOWN));
+  for (const auto source :
+       {bp::RESET_COORDINATE_SOURCE_MANUAL, bp::RESET_COORDINATE_SOURCE_UNSPECIFIED}) {
+    reset.mutable_settings()->set_reset_coordinate_source(source);
+    deck.tell(reset);
+  }
+  deck.run(1.0);
+  EXPECT_THAT(deck.notifications(),
+              testing::Contains(bp::NOTIFICATION_TYPE_DRONE_POSITION_IS_UNKNOWN));
+  bp::PilotGPSPositionCtrl pilot;
+  pilot.mutable_position()->set_latitude(10.0);
+  pilot.mutable_position()->set_longitude(20.0);
+  deck.tell(pilot);
+  reset.mutable_settings()->set_reset_coordinate_source(bp::RESET_COORDINATE_SOURCE_DEVICE_GPS);
+  deck.tell(reset);
+  deck.run(1.0);
+  const auto estimate = deck.latest<bp::PositionEstimateTel>().position_estimate();
+  EXPECT_NEAR(estimate.global_position().latitude(), 10.0, 1e-5);
+  EXPECT_NEAR(estimate.global_position().longitude(), 20.0, 1e-5);
 }
 
 TEST(BlueyeMotion, WithoutDvlThereIsNeitherEstimateNorAltitude) {
