@@ -12,8 +12,6 @@
 #include <frontseat_driver/SetFloat.h>
 #include <frontseat_driver/SetHeadingMode.h>
 #include <frontseat_driver/SetRate.h>
-#include <google/protobuf/struct.pb.h>
-#include <google/protobuf/util/json_util.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
@@ -21,6 +19,7 @@
 #include <memory>
 #include <utility>
 
+#include "blueye/mission_json.h"
 #include "blueye/topics.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
@@ -35,7 +34,6 @@ constexpr auto kGrace = 200ms;
 // How soon a waiting call notices that the driver is stopping.
 constexpr auto kLook = 20ms;
 constexpr auto kControlShown = 2s;
-constexpr int kMostInstructions = 50;
 
 constexpr const char* kStopping = "the driver is stopping";
 
@@ -76,20 +74,6 @@ auto fillJson(Response& response, const std::string&, const std::string& json, l
 }
 template <class Response>
 void fillJson(Response&, const std::string&, const std::string&, ...) {}
-
-/// An instruction that does not say whether the mission goes on after it shall let it go on.
-std::string withAutoContinue(const std::string& json, pb::Mission& mission) {
-  google::protobuf::Struct given;
-  if (!google::protobuf::util::JsonStringToMessage(json, &given).ok())
-    return "it is no JSON object";
-  const auto instructions = given.fields().find("instructions");
-  for (int i = 0; i < mission.instructions_size(); ++i) {
-    const auto& fields = instructions->second.list_value().values(i).struct_value().fields();
-    const bool told = fields.count("auto_continue") != 0 || fields.count("autoContinue") != 0;
-    if (!told) mission.mutable_instructions(i)->set_auto_continue(true);
-  }
-  return {};
-}
 
 }  // namespace
 
@@ -330,21 +314,10 @@ void Services::addMissions() {
 }
 
 Services::Answer Services::loadMission(const std::string& text) const {
-  const auto bytes = catalogue_.fromJson("Mission", text);
-  pb::SetMissionReq wanted;
-  if (!bytes.ok || !parse(bytes.text, *wanted.mutable_mission()))
-    return {false, bytes.text, {}, {}};
-  const int instructions = wanted.mission().instructions_size();
-  if (instructions < 1 || instructions > kMostInstructions) {
-    return {false,
-            "instructions are " + std::to_string(instructions) + "; 1 to 50 are accepted",
-            {},
-            {}};
-  }
-  const std::string trouble = withAutoContinue(text, *wanted.mutable_mission());
-  if (!trouble.empty()) return {false, trouble, {}, {}};
-  return ask([this, payload = wanted.SerializeAsString()](const auto& now, auto& out,
-                                                          const Respond& respond) {
+  const MissionRequest wanted = toMissionRequest(catalogue_, text);
+  if (const auto* refusal = std::get_if<std::string>(&wanted)) return {false, *refusal, {}, {}};
+  return ask([this, payload = std::get<pb::SetMissionReq>(wanted).SerializeAsString()](
+                 const auto& now, auto& out, const Respond& respond) {
     const std::string refusal = session_.refusal();
     if (!refusal.empty()) return respond({false, refusal, {}, {}});
     const auto verdict = std::make_shared<pb::MissionState>(pb::MISSION_STATE_UNSPECIFIED);
