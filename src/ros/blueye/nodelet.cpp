@@ -5,6 +5,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "blueye/bridge.h"
+#include "blueye/protobuf_log.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -14,6 +15,7 @@ class BlueyeNodelet : public nodelet::Nodelet {
   void onInit() override {
     // After an interrupted wait for the master nothing can be advertised; publishing would abort.
     if (ros::isShuttingDown()) return;
+    throttleProtobufLog();
     XmlRpc::XmlRpcValue values;
     getPrivateNodeHandle().getParam(getPrivateNodeHandle().getNamespace(), values);
     try {
