@@ -327,9 +327,8 @@ void Publisher::takeNotification(const vehicle::Now& now, const pb::Notification
   BlueyeNotification out = toNotification(told, context(now));
   const std::string raised =
       std::to_string(told.timestamp().seconds()) + "." + std::to_string(told.timestamp().nanos());
-  std::string& last = notified_[out.name.empty() ? std::to_string(out.type) : out.name];
-  if (told.has_timestamp() && last == raised) return;
-  last = raised;
+  const std::string name = out.name.empty() ? std::to_string(out.type) : out.name;
+  if (notified_.isRepeated(name, raised) && told.has_timestamp()) return;
   if (told.has_value()) {
     const std::string url = told.value().type_url();
     const auto json = catalogue_.toJson(url.substr(url.rfind('/') + 1), told.value().value());

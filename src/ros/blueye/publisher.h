@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "blueye/navigation.h"
+#include "blueye/repeats.h"
 #include "frontseat_driver/protocol/blueye_catalogue.h"
 #include "stamper.h"
 
@@ -106,7 +107,7 @@ class Publisher {
   std::optional<pb::ControlMode> control_mode_;
   std::optional<pb::Battery> battery_;
   vehicle::SteadyTime battery_details_at_{};
-  std::map<std::string, std::string> notified_;  ///< the last of each kind, with its timestamp
+  Repeats notified_;
 };
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer
