@@ -26,7 +26,8 @@ constexpr auto kAskAgain = 100ms;
 constexpr auto kOvertaken = 1s;
 constexpr auto kMissionEnds = 5s;
 constexpr auto kAskForConfirmation = 300ms;
-constexpr double kMostRate_hz = 100.0;  // the document, SetPubFrequencyReq
+constexpr std::int64_t kLongestUptime_s = 9000000000;  // more does not fit into nanoseconds
+constexpr double kMostRate_hz = 100.0;                 // the document, SetPubFrequencyReq
 
 // What a program wants to know at once, and the drone tells only when it changes.
 constexpr std::array<const char*, 7> kAskedAtStart{
@@ -440,6 +441,7 @@ void BlueyeSession::hearClock(const Now& now, std::string_view payload, BlueyeOu
   if (!parse(payload, message)) return malformed();
   if (!message.monotonic_clock().has_unix_timestamp() || options_.listen_only) return;
   const auto& time = message.monotonic_clock().unix_timestamp();
+  if (time.seconds() < 0 || time.seconds() > kLongestUptime_s) return;
   const auto uptime = std::chrono::seconds{time.seconds()} + std::chrono::nanoseconds{time.nanos()};
   const bool rebooted = drone_uptime_ && uptime + 1s < *drone_uptime_;
   drone_uptime_ = uptime;

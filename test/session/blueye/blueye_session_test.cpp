@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <limits>
+
 #include "scripted_drone.h"
 
 namespace frontseat_driver::session {
@@ -200,7 +203,7 @@ TEST(BlueyeSession, SendsNoMoreThanThirtyOfAKindASecondHoweverFastAProgramIs) {
       drone.run(period);
     }
     const auto motions = drone.controlsOf("MotionInputCtrl");
-    EXPECT_GE(motions.size(), 75u);
+    EXPECT_GE(motions.size(), 87u);  // each 34 ms: time goes by the millisecond here
     EXPECT_LE(motions.size(), 91u);
     EXPECT_LE(drone.controlsOf("TiltVelocityCtrl").size(), 91u);
     for (std::size_t i = 1; i < motions.size(); ++i) {
@@ -747,6 +750,19 @@ TEST(BlueyeSession, LeavesTheConnectionsOfADroneThatWasRebooted) {
   EXPECT_THAT(drone.reconnects, IsEmpty());
   drone.tell(clockAt(3));
   EXPECT_THAT(drone.reconnects, ElementsAre("the drone was rebooted"));
+}
+
+// Nanoseconds of it would not fit into 64 bits.
+TEST(BlueyeSession, TakesNoClockThatNoneCanShowForAReboot) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.tell(clockAt(1000));
+  drone.tell(clockAt(std::numeric_limits<std::int64_t>::max()));
+  drone.tell(clockAt(std::numeric_limits<std::int64_t>::min()));
+  drone.tell(clockAt(1002));
+  EXPECT_THAT(drone.reconnects, IsEmpty());
+  drone.tell(clockAt(3));
+  EXPECT_EQ(drone.reconnects.size(), 1u);
 }
 
 TEST(BlueyeSession, StopSendsZerosAtOnceAndPausesTheMission) {
