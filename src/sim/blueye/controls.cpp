@@ -174,9 +174,9 @@ bool waterDensity(BlueyeCore& core, const bp::WaterDensityCtrl& message) {
 }
 
 bool systemTime(BlueyeCore& core, const bp::SystemTimeCtrl& message) {
-  const auto& time = message.system_time().unix_timestamp();
-  core.computer.clock_offset =
-      std::chrono::seconds{time.seconds()} + std::chrono::nanoseconds{time.nanos()} - core.now;
+  const auto time = toUtc(message.system_time().unix_timestamp());
+  if (!time) return false;
+  core.computer.clock_offset = *time - core.now;
   core.announce("DroneTimeTel");
   return true;
 }

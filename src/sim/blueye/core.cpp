@@ -43,6 +43,13 @@ google::protobuf::Timestamp toTimestamp(UtcTime time) {
   return stamp;
 }
 
+std::optional<UtcTime> toUtc(const google::protobuf::Timestamp& stamp) {
+  constexpr std::int64_t kEnd_s = 7258118400;  // 2200
+  if (stamp.seconds() < 0 || stamp.seconds() >= kEnd_s) return std::nullopt;
+  if (stamp.nanos() < 0 || stamp.nanos() >= 1000000000) return std::nullopt;
+  return std::chrono::seconds{stamp.seconds()} + UtcTime{stamp.nanos()};
+}
+
 double noise(BlueyeCore& core, double sigma) {
   return core.config.noise ? sigma * core.random.normal() : 0.0;
 }

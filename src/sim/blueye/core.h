@@ -114,4 +114,7 @@ double noise(BlueyeCore& core, double sigma);
 
 google::protobuf::Timestamp toTimestamp(UtcTime time);
 
+/// Empty for what no clock shows: before 1970, after 2200, or without nanoseconds of a second.
+std::optional<UtcTime> toUtc(const google::protobuf::Timestamp& stamp);
+
 }  // namespace frontseat_driver::sim

@@ -15,6 +15,8 @@ namespace frontseat_driver::sim {
 namespace {
 
 constexpr std::chrono::milliseconds kTruthPeriod{50};
+// A rate below once in a week is once in a week.
+constexpr double kSeldom_s = 604800.0;
 
 UtcTime seconds(double value) {
   return std::chrono::duration_cast<UtcTime>(std::chrono::duration<double>{value});
@@ -210,7 +212,7 @@ struct BlueyeDrone::Impl {
   bool due(const BlueyeTelemetry& row) {
     const double hz = rate(row);
     if (hz <= 0.0) return false;
-    const UtcTime period = seconds(1.0 / hz);
+    const UtcTime period = seconds(std::min(1.0 / hz, kSeldom_s));
     UtcTime& next = core.computer.due.emplace(row.name, core.now).first->second;
     if (core.now < next) return false;
     next += period;

@@ -24,12 +24,26 @@ double distance(const PlanePoint& a, const PlanePoint& b) {
 
 double orDefault(double value, double otherwise) { return value > 0.0 ? value : otherwise; }
 
+/// Rounded; as many as the field can tell.
+std::uint32_t toCount(double value) {
+  return static_cast<std::uint32_t>(std::clamp(std::round(value), 0.0, 4294967295.0));
+}
+
 nmea::LatLon toLatLon(const bp::LatLongPosition& position) {
   return {position.latitude(), position.longitude()};
 }
 
 bool onEarth(const bp::LatLongPosition& position) {
   return std::abs(position.latitude()) <= 90.0 && std::abs(position.longitude()) <= 180.0;
+}
+
+bool onEarth(const bp::SurveyCommand& survey) {
+  const auto& waypoints = survey.waypoints();
+  const auto& vertices = survey.vertices();
+  return std::all_of(waypoints.begin(), waypoints.end(),
+                     [](const bp::Waypoint& one) { return onEarth(one.global_position()); }) &&
+         std::all_of(vertices.begin(), vertices.end(),
+                     [](const bp::LatLongPosition& one) { return onEarth(one); });
 }
 
 const bp::DepthSetPoint* depthOf(const bp::Instruction& instruction) {
@@ -126,6 +140,7 @@ std::optional<bp::NotificationType> BlueyeMission::findFault(const bp::Mission& 
         return bp::NOTIFICATION_TYPE_DEPTH_SET_POINT_IS_TOO_FAR_AWAY;
       }
     }
+    if (!onEarth(instruction.survey_command())) return kBad;
     if (!instruction.has_waypoint_command()) continue;
     const auto& position = instruction.waypoint_command().waypoint().global_position();
     if (!onEarth(position)) return kBad;
@@ -185,8 +200,8 @@ void BlueyeMission::planPath(const BlueyeCore& core) {
     }
     duration += time;
   }
-  mission_.set_total_distance(static_cast<std::uint32_t>(std::lround(length)));
-  mission_.set_total_duration_time(static_cast<std::uint32_t>(std::lround(duration)));
+  mission_.set_total_distance(toCount(length));
+  mission_.set_total_duration_time(toCount(duration));
 }
 
 void BlueyeMission::fail(bp::MissionState state, bp::NotificationType reason, BlueyeCore& core) {
@@ -617,8 +632,8 @@ bp::MissionStatus BlueyeMission::status(const BlueyeCore& core) const {
     rest += mission_.path_segments(i).horizontal_length();
     seconds += mission_.path_segments(i).duration_time();
   }
-  status.set_distance_to_complete(static_cast<std::uint32_t>(std::lround(rest)));
-  status.set_estimated_time_to_complete(static_cast<std::uint32_t>(std::lround(seconds)));
+  status.set_distance_to_complete(toCount(rest));
+  status.set_estimated_time_to_complete(toCount(seconds));
   return status;
 }
 

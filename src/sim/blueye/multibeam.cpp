@@ -97,9 +97,9 @@ bp::MultibeamPing BlueyeMultibeam::ping(vehicle::UtcTime clock, double altitude_
   // The bottom begins where a beam meets it: the same slant range for all beams near the middle.
   const double down = std::sin(std::max(0.02, kTilt_rad - pitch_rad));
   const double bottom_m = altitude_m / down;
-  const auto row = static_cast<std::size_t>(bottom_m / config_.range() * size_.ranges);
-  if (bottom_m < config_.range() && row < size_.ranges) {
-    std::memset(&data[row * width], 200, width);
+  if (bottom_m < config_.range()) {
+    const auto row = static_cast<std::size_t>(bottom_m / config_.range() * size_.ranges);
+    if (row < size_.ranges) std::memset(&data[row * width], 200, width);
   }
   ping.set_ping_data(std::move(data));
   for (std::uint32_t beam = 0; beam < width; ++beam) {

@@ -49,9 +49,9 @@ void disconnectClient(BlueyeCore& core, const bp::DisconnectClientReq& request,
 }
 
 void syncTime(BlueyeCore& core, const bp::SyncTimeReq& request, bp::SyncTimeRep& reply) {
-  const auto& time = request.time().unix_timestamp();
-  core.computer.clock_offset =
-      std::chrono::seconds{time.seconds()} + std::chrono::nanoseconds{time.nanos()} - core.now;
+  const auto time = toUtc(request.time().unix_timestamp());
+  if (!time) return;
+  core.computer.clock_offset = *time - core.now;
   core.announce("DroneTimeTel");
   reply.set_success(true);
 }

@@ -34,7 +34,9 @@ std::vector<PlanePoint> surveyLines(const std::vector<PlanePoint>& polygon, doub
 
   std::vector<PlanePoint> ends;
   bool back = false;
-  for (double across = low->across + 0.5 * spacing_m; across < high->across; across += spacing_m) {
+  for (int line = 0; line <= kMostLines; ++line) {
+    const double across = low->across + (line + 0.5) * spacing_m;
+    if (across >= high->across) break;
     std::vector<double> crossings;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Rotated& a = corners[i];

@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "deck.h"
 #include "frontseat_driver/sim/random.h"
@@ -154,6 +156,58 @@ TEST(Hostile, NaNIsRefusedUnderEveryNameThatHasANumberThere) {
   EXPECT_GT(deck.drone.counts().refused, 20U);
   deck.run(0.2);
   EXPECT_TRUE(sane(deck.state()));
+}
+
+class NoTime : public testing::TestWithParam<std::pair<std::int64_t, std::int32_t>> {};
+
+TEST_P(NoTime, LeavesTheClockAsItIs) {
+  Deck deck;
+  deck.connect();
+  google::protobuf::Timestamp time;
+  time.set_seconds(GetParam().first);
+  time.set_nanos(GetParam().second);
+  bp::SyncTimeReq request;
+  *request.mutable_time()->mutable_unix_timestamp() = time;
+  const auto reply = deck.ask<bp::SyncTimeRep>(request);
+  ASSERT_TRUE(reply);
+  EXPECT_FALSE(reply->success());
+  bp::SystemTimeCtrl told;
+  *told.mutable_system_time()->mutable_unix_timestamp() = time;
+  deck.tell(told);
+  EXPECT_EQ(deck.drone.counts().refused, 1U);
+  deck.run(2.0);
+  const auto clock = deck.latest<bp::DroneTimeTel>().real_time_clock().unix_timestamp();
+  EXPECT_NEAR(static_cast<double>(clock.seconds()), 1772366401.0, 1.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, NoTime,
+                         testing::Values(std::pair{std::numeric_limits<std::int64_t>::max(), 0},
+                                         std::pair{std::numeric_limits<std::int64_t>::min(), 0},
+                                         std::pair{std::int64_t{-1}, 0},
+                                         std::pair{std::int64_t{7258118400}, 0},
+                                         std::pair{std::int64_t{1772366400}, -1},
+                                         std::pair{std::int64_t{1772366400}, 1000000000}));
+
+TEST(Hostile, ARateThatIsHardlyAnyIsSeldom) {
+  Deck deck;
+  deck.connect();
+  bp::SetPubFrequencyReq request;
+  request.set_message_type("DepthTel");
+  request.set_frequency(1e-38F);
+  EXPECT_TRUE(deck.ask<bp::SetPubFrequencyRep>(request)->success());
+  const std::size_t before = deck.count<bp::DepthTel>();
+  deck.run(10.0);
+  EXPECT_LE(deck.count<bp::DepthTel>(), before + 1);
+}
+
+TEST(Hostile, ASonarThatSeesNoDistanceSendsItsImage) {
+  Deck deck;
+  deck.connect();
+  bp::ActivateMultibeamCtrl activate;
+  activate.mutable_config()->set_range(1e-300);
+  deck.tell(activate);
+  deck.run(1.0);
+  EXPECT_GT(deck.count<bp::MultibeamPingTel>(), 0U);
 }
 
 TEST(Hostile, ValuesBeyondTheirRangeAreLimited) {

@@ -351,7 +351,20 @@ INSTANTIATE_TEST_SUITE_P(
                         bp::NOTIFICATION_TYPE_WAYPOINT_IS_TOO_FAR_AWAY},
                     Bad{"too_deep", [](Plan& plan) { plan.depth(400.0F); },
                         bp::NOTIFICATION_TYPE_DEPTH_SET_POINT_IS_TOO_FAR_AWAY},
+                    Bad{"survey_line_not_on_earth",
+                        [](Plan& plan) {
+                          auto& survey = *plan.add().mutable_survey_command();
+                          survey.add_waypoints()->mutable_global_position()->set_longitude(181.0);
+                        },
+                        kFailed},
+                    Bad{"survey_corner_not_on_earth",
+                        [](Plan& plan) {
+                          plan.add().mutable_survey_command()->add_vertices()->set_latitude(1e300);
+                        },
+                        kFailed},
                     Bad{"too_long", [](Plan& plan) { plan.wait(20000.0F); },
+                        bp::NOTIFICATION_TYPE_TIME_TO_COMPLETE_IS_TOO_LONG},
+                    Bad{"far_too_long", [](Plan& plan) { plan.wait(1e38F); },
                         bp::NOTIFICATION_TYPE_TIME_TO_COMPLETE_IS_TOO_LONG}),
     [](const auto& row) { return std::string{row.param.name}; });
 

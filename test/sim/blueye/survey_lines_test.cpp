@@ -37,5 +37,13 @@ TEST(SurveyLines, AreNoneWhereThereIsNoArea) {
   EXPECT_TRUE(surveyLines(square(10.0), 0.0, 1e-6, 0.0, false).empty());
 }
 
+// So far away a spacing is lost in the rounding of the place.
+TEST(SurveyLines, ComeToAnEndFarAway) {
+  const double far_m = 1e16;
+  const auto ends =
+      surveyLines({{far_m, 0.0}, {far_m + 64.0, 0.0}, {far_m, 1.0}}, 0.0, 0.5, 0.0, false);
+  EXPECT_LE(ends.size(), 258U);
+}
+
 }  // namespace
 }  // namespace frontseat_driver::sim
