@@ -36,6 +36,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   // What the session sends.
 
   bool publish(const vehicle::Now& at, std::string_view type, std::string_view payload) override {
+    offers[shortName(type)].push_back(at.steady);
     if (!link_takes) return false;
     controls.push_back({at.steady, shortName(type), std::string{payload}});
     return true;
@@ -43,7 +44,8 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
 
   bool request(const vehicle::Now& at, std::string_view type, std::string_view payload,
                std::chrono::milliseconds timeout) override {
-    if (under_way_) return false;
+    offers[shortName(type)].push_back(at.steady);
+    if (under_way_ || !takes_requests) return false;
     requests.push_back({at.steady, shortName(type), std::string{payload}});
     under_way_ = Waiting{requests.back(), at.steady + timeout};
     return true;
@@ -193,8 +195,9 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   BlueyeSession session;
   bool answers = true;
   std::size_t held_request = 0;  ///< the request of this number (from 1) is not answered meanwhile
-  bool link_takes = true;
-  bool keeps_control = false;  ///< whoever is in control stays so, whatever is asked
+  bool link_takes = true;        ///< control messages
+  bool takes_requests = true;    ///< and these
+  bool keeps_control = false;    ///< whoever is in control stays so, whatever is asked
   bool took_control = false;
   bool lists_clients = true;
   bool echoes = false;  ///< every request is answered with `echo`
@@ -204,6 +207,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   std::vector<BlueyeClient> registry;
   std::vector<Sent> controls;
   std::vector<Sent> requests;
+  std::map<std::string, std::vector<vehicle::SteadyTime>> offers;  ///< also what was not taken
   std::vector<std::string> heard;
   std::string heard_bytes;
   std::vector<std::string> reconnects;
