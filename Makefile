@@ -45,7 +45,7 @@ build: ## the package, ready to be sourced from build/devel/setup.bash
 
 fuzz: ## FUZZ_SECONDS=60 of libFuzzer on each target, or FUZZER=decode alone; KEEP=1 adds what is new to the corpora
 	@scripts/install_dependencies build test fuzz
-	@BUILD_DIR="$(BUILD_DIR)/fuzz" TARGETS=fuzzers scripts/build -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_FUZZERS=ON
+	@BUILD_DIR="$(BUILD_DIR)/fuzz" TARGETS=fuzzers scripts/build -DCMAKE_CXX_COMPILER=clang++ -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_FUZZERS=ON -DFRONTSEAT_QUICK_BUILD=ON
 	@BUILD_DIR="$(BUILD_DIR)/fuzz" scripts/fuzz "$(FUZZ_SECONDS)" $(FUZZER)
 
 coverage: ## lines and branches that the test programs reach, by layer

@@ -38,6 +38,15 @@ class Dice {
 
   std::string_view rest() { return take(rest_.size()); }
 
+  /// Up to the next line feed, which is taken as well.
+  std::string_view line() {
+    const std::size_t end = rest_.find('\n');
+    if (end == std::string_view::npos) return rest();
+    const std::string_view taken = take(end);
+    rest_.remove_prefix(1);
+    return taken;
+  }
+
   template <class T>
   T value() {
     T result{};
