@@ -757,7 +757,6 @@ vehicle::SteadyTime BlueyeSession::nextStep() const {
 }
 
 void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
-  const bool in_control = inControl() && !options_.listen_only;
   leaving_ = true;  // first, so that no answer begins anything anew
   // The goodbye of a release is under way: its answer counts.
   const std::string goodbye = releasing_ ? pb::DisconnectClientReq{}.GetTypeName() : "";
@@ -769,7 +768,8 @@ void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   if (taking_) finishTaking(now, {false, kLeaving}, out);
   if (releasing_) finishReleasing(now, {false, kLeaving});
   goodbye_said_ = !registered() || options_.listen_only;
-  if (in_control) {
+  // Also a registration that was under way may just have been given up.
+  if (inControl() && !options_.listen_only) {
     held_.end(now.steady, true);
   } else {
     held_.forget();

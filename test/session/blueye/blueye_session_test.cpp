@@ -1001,6 +1001,27 @@ TEST(BlueyeSession, SendsNoZeroAfterTheGoodbyeOfAReleaseEither) {
   EXPECT_TRUE(drone.session.hasLeft());
 }
 
+// The drone has removed the client, and says of it that it is in control all the same.
+TEST(BlueyeSession, SendsNoZeroWhenItLeavesBetweenTwoRegistrations) {
+  ScriptedDrone drone;
+  Answers answers;
+  drone.connect();
+  drone.run(1s);
+  drone.hold();
+  drone.session.takeControl(drone.now, answers.keep(), drone);
+  drone.run(5ms);
+  pb::DisconnectClientRep gone;
+  gone.set_client_id_in_control(drone.session.id());
+  drone.session.reply(drone.now, gone.GetTypeName(), gone.SerializeAsString(), drone);
+  EXPECT_TRUE(drone.session.inControl());
+  drone.controls.clear();
+  drone.session.leave(drone.now, drone);
+  drone.run(100ms);
+  EXPECT_THAT(drone.controls, IsEmpty());
+  EXPECT_TRUE(drone.session.hasLeft());
+  EXPECT_EQ(answers.all.size(), 1u);
+}
+
 TEST(BlueyeSession, LeavesAtOnceWhenItIsNotRegistered) {
   ScriptedDrone drone;
   drone.session.leave(drone.now, drone);
