@@ -68,9 +68,10 @@ int minuteDigits(int whole_digits, DegreeSplit split, int degree_digits) {
 
 }  // namespace
 
+// Behind the last field is one place more, which a null pointer does not have.
 FieldReader::FieldReader(const Sentence& sentence)
-    : begin_(sentence.fields.data()),
-      end_(begin_ + sentence.fields.size()),
+    : begin_(sentence.has_fields ? sentence.fields.data() : ""),
+      end_(sentence.has_fields ? begin_ + sentence.fields.size() : begin_),
       at_(sentence.has_fields ? begin_ : end_ + 1),
       block_(begin_) {
   findMarks();

@@ -212,10 +212,12 @@ TEST(FieldReader, TellsAMissingFieldFromABlankOne) {
 }
 
 TEST(FieldReader, OfASentenceWithoutCommaHasNoField) {
-  FieldReader in{Sentence{"ABCDE", "", false}};
-  EXPECT_EQ(in.text(), "");
-  EXPECT_EQ(in.faults().first.fault, Fault::MissingField);
-  EXPECT_EQ(in.faults().first.field, 1);
+  for (const std::string_view nothing : {std::string_view{""}, std::string_view{}}) {
+    FieldReader in{Sentence{"ABCDE", nothing, false}};
+    EXPECT_EQ(in.text(), "");
+    EXPECT_EQ(in.faults().first.fault, Fault::MissingField);
+    EXPECT_EQ(in.faults().first.field, 1);
+  }
 }
 
 TEST(FieldReader, LetsOptionalFieldsBeMissing) {
