@@ -168,11 +168,11 @@ TEST_F(FullLink, IsOfferedAControlThatIsRepeatedAtOnceAndThenEvery20ms) {
   const auto offers = drone_.offers["AutoDepthCtrl"];
   EXPECT_EQ(pauses(offers), (std::vector<int>{1, 20, 20, 20, 20}));
   drone_.link_takes = true;
-  drone_.run(20ms);
+  drone_.run(1ms);
   ASSERT_EQ(drone_.controlsOf("AutoDepthCtrl").size(), 1u);
   drone_.run(499ms);
   EXPECT_EQ(drone_.controlsOf("AutoDepthCtrl").size(), 1u);
-  drone_.run(2ms);
+  drone_.run(1ms);
   EXPECT_EQ(drone_.controlsOf("AutoDepthCtrl").size(), 2u);
 }
 
