@@ -84,7 +84,7 @@ class Step {
 
   template <class Message>
   void publish(VehicleTopic topic, Message&& message) {
-    outlet_.publish(topic, std::move(message));
+    outlet_.publish(topic, std::forward<Message>(message));
   }
 
   template <class Message>

@@ -5,6 +5,7 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <boost/make_shared.hpp>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -31,7 +32,8 @@ bool isLatched(VehicleTopic topic) {
 // Shared, so that a nodelet in the same manager gets it without a copy.
 template <class Message>
 void publishShared(const ros::Publisher& publisher, Message&& message) {
-  publisher.publish(boost::make_shared<const Message>(std::move(message)));
+  using Value = std::decay_t<Message>;
+  publisher.publish(boost::make_shared<const Value>(std::forward<Message>(message)));
 }
 
 void publishSentence(const ros::Publisher& publisher, const vehicle::Now& now,
