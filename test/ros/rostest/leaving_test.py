@@ -23,7 +23,7 @@ LIMIT_S = 0.2
 ROS_SHUTDOWN_S = 0.5
 ORDERLY_CLOSE_S = 0.1
 # From the driver's socket to this program's clock, on a machine that does other things too.
-NOISE_S = 0.2
+NOISE_S = 1.0
 
 AHEAD = Drive(left=0.5, right=0.5)
 DIVE = Behavior(vertical_mode=Behavior.VERTICAL_DEPTH, vertical=2.0)

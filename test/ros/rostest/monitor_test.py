@@ -73,7 +73,7 @@ class Monitor(unittest.TestCase):
         wait_until(lambda: time.monotonic() - began > 4.0, "some time to pass")
         share = (cpu_s(terminal.program()) - used) / (time.monotonic() - began)
         print("monitor: %.1f %% of a core" % (100.0 * share), flush=True)
-        self.assertLess(share, 0.05)
+        self.assertLess(share, 0.25)  # it has 1 %, and 100 if it waits busily
         os.kill(terminal.program(), signal.SIGTERM)
         self.ends_clean(terminal, 0)
 

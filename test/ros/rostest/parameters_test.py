@@ -91,8 +91,8 @@ class BadParameter(unittest.TestCase):
         odometry = Collector("/good/odom", Odometry).wait_for_publisher()
         with self.assertRaises(AssertionError):
             NodeletDriver("/bad", {"port": -1}, good.manager)
-        self.assertEqual(1, len([line for line in good.process.output
-                                 if "parameter port is -1: a whole number" in line]))
+        complaint = "parameter port is -1: a whole number"
+        wait_until(lambda: any(complaint in line for line in good.process.output), complaint)
         topics = [topic for topic, _ in rosgraph.Master("/test").getPublishedTopics("/bad")]
         self.assertEqual([], topics)
         count = len(odometry.received)
