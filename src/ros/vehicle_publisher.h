@@ -58,8 +58,8 @@ class VehiclePublisher : private MessageOutlet {
   static constexpr auto kTopics = static_cast<std::size_t>(VehicleTopic::Count);
 
   /// An advertised topic that can tell for each sentence whether somebody subscribes to it. To ask
-  /// the publisher costs five times as much (callgrind): it looks the topic up by name, under a lock
-  /// that the thread which sends the messages takes, too.
+  /// the publisher costs five times as much (callgrind): it looks the topic up by name, under a
+  /// lock that the thread which sends the messages takes, too.
   struct Topic {
     Topic() = default;
     explicit Topic(const ros::Publisher& advertised);
