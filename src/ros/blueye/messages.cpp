@@ -15,8 +15,6 @@ namespace {
 
 constexpr float kNanF = std::numeric_limits<float>::quiet_NaN();
 constexpr double kTeslaPerMicrotesla = 1e-6;
-// A circle with radius 2.4477 sigma holds 95 percent in two axes: sqrt(-2 ln 0.05).
-constexpr double kRadius95 = 2.4477;
 
 double radiansOf(double angle_deg) { return angle_deg * M_PI / 180.0; }
 
@@ -168,6 +166,11 @@ std::string printable(const std::string& bytes) {
 
 bool isPositive(double value) { return std::isfinite(value) && value > 0.0; }
 
+double varianceOfRadius95(double radius_m) {
+  constexpr double kRadius_sigma = 2.4477;  // sqrt(-2 ln 0.05)
+  return isPositive(radius_m) ? variance(radius_m / kRadius_sigma) : kUnknownVariance;
+}
+
 bool isUsable(const pb::LatLongPosition& position) {
   return ros_layer::isUsable({position.latitude(), position.longitude()});
 }
@@ -287,8 +290,7 @@ std::optional<sensor_msgs::NavSatFix> toNavFix(const pb::PositionEstimateTel& to
   sensor_msgs::NavSatFix out = fix(in.global_position(), known, depth_m ? negated(*depth_m) : kNan,
                                    context.base_frame, context);
   if (out.status.status == sensor_msgs::NavSatStatus::STATUS_NO_FIX) return out;
-  const double horizontal =
-      isPositive(in.accuracy()) ? variance(in.accuracy() / kRadius95) : kUnknownVariance;
+  const double horizontal = varianceOfRadius95(in.accuracy());
   setVariances(
       out.position_covariance, 0,
       {horizontal, horizontal, depth_m ? variance(context.deviations.depth_m) : kUnknownVariance});

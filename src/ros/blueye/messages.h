@@ -78,6 +78,9 @@ geometry_msgs::Quaternion orientationOf(const pb::Attitude& attitude, const Conv
 /// A number that tells something: not 0, which the wire leaves out, nor NaN or infinite.
 bool isPositive(double value);
 
+/// Of each of two axes, from the radius that holds 95 percent; of an unknown one if it is 0.
+double varianceOfRadius95(double radius_m);
+
 bool isUsable(const pb::LatLongPosition& position);
 
 /// The velocity of a DVL in FLU; empty without a valid beam.

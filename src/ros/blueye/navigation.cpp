@@ -9,7 +9,6 @@ namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
-constexpr double kRadius95 = 2.4477;  // sqrt(-2 ln 0.05): 95 percent of two axes, in sigma
 // The rounding of positions and a little jitter of arrival.
 constexpr double kStepMargin_m = 1.0;
 // Depths have the time of their arrival alone: over less, its jitter would be most of the speed.
@@ -187,7 +186,7 @@ void Navigation::fillPose(nav_msgs::Odometry& out, const vehicle::Now& now) cons
   if (estimate.is_valid()) {
     out.pose.pose.position.x = estimate.easting() + offset_.x;
     out.pose.pose.position.y = estimate.northing() + offset_.y;
-    if (isPositive(estimate.accuracy())) horizontal = variance(estimate.accuracy() / kRadius95);
+    horizontal = varianceOfRadius95(estimate.accuracy());
   }
   const auto depth = depth_m(now);
   out.pose.pose.position.z = 0.0 - depth.value_or(0.0);

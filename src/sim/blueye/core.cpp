@@ -12,10 +12,6 @@ namespace {
 constexpr double kSubmerged_m = 0.25;  // the dive time counts below, a GNSS receiver hears above
 constexpr double kDevicePower_w = 12.0;
 
-UtcTime seconds(double value) {
-  return std::chrono::duration_cast<UtcTime>(std::chrono::duration<double>{value});
-}
-
 double horizontalSpeed(const VehicleState& state) {
   return std::hypot(state.velocity_east_m_s, state.velocity_north_m_s);
 }
@@ -35,6 +31,10 @@ bp::CameraParameters defaultCamera(bp::Camera camera) {
 }
 
 }  // namespace
+
+UtcTime seconds(double value) {
+  return std::chrono::duration_cast<UtcTime>(std::chrono::duration<double>{value});
+}
 
 google::protobuf::Timestamp toTimestamp(UtcTime time) {
   google::protobuf::Timestamp stamp;

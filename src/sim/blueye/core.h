@@ -112,6 +112,7 @@ class BlueyeCore {
 /// Noise of one sigma, or none; never the same twice.
 double noise(BlueyeCore& core, double sigma);
 
+UtcTime seconds(double value);
 google::protobuf::Timestamp toTimestamp(UtcTime time);
 
 /// Empty for what no clock shows: before 1970, after 2200, or without nanoseconds of a second.

@@ -18,10 +18,6 @@ constexpr std::chrono::milliseconds kTruthPeriod{50};
 // A rate below once in a week is once in a week.
 constexpr double kSeldom_s = 604800.0;
 
-UtcTime seconds(double value) {
-  return std::chrono::duration_cast<UtcTime>(std::chrono::duration<double>{value});
-}
-
 /// What follows the package; empty if there is no such package in front.
 std::string withoutPackage(std::string_view name) {
   const std::string_view package{kBlueyePackage};
