@@ -399,7 +399,7 @@ def main():
     parser.add_argument("--again", action="store_true",
                         help="only what survived in the last run, after its tests were written")
     parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", "2")))
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()  # options may come before the files
 
     found = find_mutations(REPOSITORY, arguments.files)
     folder = os.path.realpath(os.path.join(arguments.build_dir, "mutation"))
