@@ -169,7 +169,10 @@ struct Listener : BlueyeLinkListener, session::BlueyeListener {
   void onRequestSent(const vehicle::Now&, std::string_view, std::string_view) override {
     ++requests;
   }
-  void onTick(const vehicle::Now&) override {}
+  void onTick(const vehicle::Now& now) override {
+    const std::lock_guard<std::mutex> lock(mutex);
+    ticks.push_back(now.steady);
+  }
   void telemetry(const vehicle::Now&, std::string_view type, std::string_view payload) override {
     ++messages;
     pb::DepthTel told;
@@ -191,6 +194,8 @@ struct Listener : BlueyeLinkListener, session::BlueyeListener {
   std::atomic<int> messages{0};
   std::atomic<float> depth_m{0.0F};
   std::atomic<vehicle::Grant> grant{vehicle::Grant::Unknown};
+  std::mutex mutex;
+  std::vector<vehicle::SteadyTime> ticks;
 };
 
 vehicle::Now clocks() {
@@ -328,6 +333,28 @@ TEST(BlueyeDriver, TellsOfADroneThatIsNotThere) {
   driver.start();
   EXPECT_TRUE(eventually([&] { return listener.failures > 0; }));
   driver.stop();
+}
+
+TEST(BlueyeDriver, TicksAtOnceAndThenOnceASecond) {
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  link::ZmqClient::Options options;
+  {
+    Drone gone;
+    options = gone.options();
+  }
+  BlueyeDriver driver(options, session, listener, clocks);
+  const auto begin = Clock::now();
+  driver.start();
+  ASSERT_TRUE(eventually([&] {
+    const std::lock_guard<std::mutex> lock(listener.mutex);
+    return listener.ticks.size() >= 3;
+  }));
+  driver.stop();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_GE(listener.ticks[i] - begin, std::chrono::seconds(i));
+    EXPECT_LT(listener.ticks[i] - begin, std::chrono::seconds(i) + 900ms);
+  }
 }
 
 TEST(BlueyeDriver, StopsSoonWithoutADrone) {

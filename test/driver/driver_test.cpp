@@ -100,6 +100,27 @@ TEST(Driver, ToldOfAVehicleThatTakesNothing) {
   rig.driver.stop();
 }
 
+TEST(Driver, AFewSentencesOnTheirWayAreNoCongestion) {
+  const RawVehicle vehicle(4096);
+  Rig rig("127.0.0.1", vehicle.port());
+  rig.driver.start();
+  const auto deaf = vehicle.accept();
+  const std::string sentence = "$BPVER*1A\r\n";
+  std::size_t bytes_sent = 0;
+  const auto congestedAfterOneMore = [&] {
+    std::promise<bool> congested;
+    rig.driver.post([&](const Now& now) {
+      if (rig.driver.output().send(now, sentence)) bytes_sent += sentence.size();
+      congested.set_value(rig.driver.output().congested());
+    });
+    return congested.get_future().get();
+  };
+  while (!congestedAfterOneMore()) {
+  }
+  EXPECT_GT(bytes_sent, 240U);  // three sentences of 80 bytes
+  rig.driver.stop();
+}
+
 /// The wait after the fourth loss and one failed attempt, when only the last connection was good
 /// if `confirmed`, and none otherwise. The steps are 5, 10, 20, 20 ms.
 milliseconds waitAfterLosses(bool confirmed) {
