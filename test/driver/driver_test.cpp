@@ -115,8 +115,7 @@ TEST(Driver, AFewSentencesOnTheirWayAreNoCongestion) {
     });
     return congested.get_future().get();
   };
-  while (!congestedAfterOneMore()) {
-  }
+  EXPECT_TRUE(waitUntil(congestedAfterOneMore));
   EXPECT_GT(bytes_sent, 240U);  // three sentences of 80 bytes
   rig.driver.stop();
 }
