@@ -248,9 +248,10 @@ class ZmqClient::Impl {
   }
 
   void drop(int linger_ms) {
-    // Nothing to set where the socket could not be opened.
-    if (connections_ && static_cast<void*>((*connections_)[kControl].socket) != nullptr) {
-      setOption((*connections_)[kControl].socket, ZMQ_LINGER, linger_ms);
+    for (const Channel channel : {kRequest, kControl}) {
+      // Nothing to set where the socket could not be opened.
+      if (!connections_ || static_cast<void*>((*connections_)[channel].socket) == nullptr) continue;
+      setOption((*connections_)[channel].socket, ZMQ_LINGER, linger_ms);
     }
     connections_.reset();
     connected_ = false;

@@ -241,7 +241,7 @@ TEST(BlueyeDriver, DrivesAndLeavesTheDroneAtRest) {
   drive();
   driver.stop();
   ASSERT_TRUE(eventually([&] { return isZero(drone.motions().back()); }));
-  EXPECT_TRUE(drone.heardGoodbye());
+  EXPECT_TRUE(eventually([&] { return drone.heardGoodbye(); }));
   EXPECT_FALSE(listener.connected);
 }
 
@@ -253,7 +253,7 @@ TEST(BlueyeDriver, AnObserverComesAndGoesWithoutAControlMessage) {
   driver.start();
   ASSERT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Denied; }));
   driver.stop();
-  EXPECT_TRUE(drone.heardGoodbye());
+  EXPECT_TRUE(eventually([&] { return drone.heardGoodbye(); }));
   EXPECT_FALSE(drone.heardAnything());
 }
 

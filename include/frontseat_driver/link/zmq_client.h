@@ -84,7 +84,8 @@ class ZmqClient {
   /// link had been lost. The handler is told.
   void reconnect(const std::string& reason);
 
-  /// Closes everything and connects no more; what was published before gets up to 50 ms to leave.
+  /// Closes everything and connects no more; what was published or asked before gets up to 50 ms
+  /// to leave.
   void close();
 
   bool connected() const;
