@@ -95,7 +95,7 @@ mutate: ## gets one sign, scale, axis, time or comparison wrong at a time and ex
 
 lint: ## clang-format, catkin_lint, cppcheck and clang-tidy over everything; takes long
 	@scripts/install_dependencies build test bench lint
-	@BUILD_DIR="$(BUILD_DIR)/lint" TARGETS="frontseat_driver_generate_messages_cpp blueye_proto" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_BENCH=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+	@BUILD_DIR="$(BUILD_DIR)/lint" TARGETS="frontseat_driver_generate_messages_cpp blueye_proto" scripts/build -DCATKIN_ENABLE_TESTING=ON -DFRONTSEAT_BENCH=ON -DFRONTSEAT_QUICK_BUILD=ON -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
 	@BUILD_DIR="$(BUILD_DIR)/lint" scripts/lint
 
 clean: ## removes everything that was built

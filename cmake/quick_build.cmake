@@ -1,6 +1,5 @@
-# Three ways to build in less time. Off unless asked for (`make test` and `make demo` ask), so that a
-# build with catkin, and `make lint` in a folder of its own, show that each file includes what it
-# uses.
+# Three ways to build in less time. Off unless asked for (`make test`, `make demo` and `make lint` ask),
+# so that a build with catkin shows that each file includes what it uses.
 option(FRONTSEAT_QUICK_BUILD "Compile small files together and common headers once" OFF)
 
 # compile_together(<target>...): eight files of a target at a time.
