@@ -92,7 +92,7 @@ class TcpClient::Impl : public std::enable_shared_from_this<Impl> {
     error_code error;
     const std::size_t written =
         socket_.write_some(boost::asio::buffer(bytes.data(), bytes.size()), error);
-    if (written == bytes.size() && !error) return true;
+    if (written == bytes.size()) return true;
     const bool refused_whole = written == 0 && error == boost::asio::error::would_block;
     if (!refused_whole) breakLater(error ? toText(error) : "a sentence could be sent only in part");
     return false;

@@ -92,7 +92,7 @@ class Peer : public std::enable_shared_from_this<Peer> {
   void lose() {
     const Lost lost = lost_;
     reset();
-    if (lost) lost();
+    lost();
   }
 
   void forget() {

@@ -96,6 +96,38 @@ long untilThen_ms(Time then) {
   return static_cast<long>(std::min<std::int64_t>(left.count(), 60'000));
 }
 
+/// Ends a poll from another thread.
+class Wake {
+ public:
+  Wake() : file_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
+    if (file_ < 0) throw std::runtime_error(std::string{"eventfd: "} + std::strerror(errno));
+  }
+  ~Wake() { ::close(file_); }
+  Wake(const Wake&) = delete;
+  Wake& operator=(const Wake&) = delete;
+
+  int file() const { return file_; }
+  void set() {
+    const std::uint64_t once = 1;
+    [[maybe_unused]] const auto written = write(file_, &once, sizeof once);
+  }
+  void clear() {
+    std::uint64_t calls = 0;
+    [[maybe_unused]] const auto size = read(file_, &calls, sizeof calls);
+  }
+
+ private:
+  const int file_;
+};
+
+zmq::context_t newContext() {
+  try {
+    return zmq::context_t{1};
+  } catch (const zmq::error_t& error) {
+    throw std::runtime_error(std::string{"ZeroMQ: "} + error.what());
+  }
+}
+
 /// A socket, and the one that tells whether it is connected.
 struct Connection {
   Connection() = default;
@@ -120,14 +152,9 @@ struct Connection {
 
 class ZmqClient::Impl {
  public:
-  Impl(Options options, Handler& handler) : options_(std::move(options)), handler_(handler) {
-    if (wake_ < 0) throw std::runtime_error(std::string{"eventfd: "} + std::strerror(errno));
-  }
+  Impl(Options options, Handler& handler) : options_(std::move(options)), handler_(handler) {}
 
-  ~Impl() {
-    drop(0);
-    ::close(wake_);
-  }
+  ~Impl() { drop(0); }
 
   void start() { open(Clock::now()); }
 
@@ -140,10 +167,7 @@ class ZmqClient::Impl {
     checkTime(Clock::now());
   }
 
-  void wake() {
-    const std::uint64_t once = 1;
-    [[maybe_unused]] const auto written = write(wake_, &once, sizeof once);
-  }
+  void wake() { wake_.set(); }
 
   bool publish(std::string_view type, std::string_view payload) {
     return connected_ && send((*connections_)[kControl].socket, type, payload);
@@ -270,7 +294,7 @@ class ZmqClient::Impl {
   void wait(Time deadline) {
     std::array<zmq_pollitem_t, 1 + kChannels + 2> items{};
     std::size_t count = 0;
-    items[count++] = {nullptr, wake_, ZMQ_POLLIN, 0};
+    items[count++] = {nullptr, wake_.file(), ZMQ_POLLIN, 0};
     if (isOpen()) {
       for (Connection& connection : *connections_) {
         // cppcheck-suppress containerOutOfBounds // it takes kChannels for 0
@@ -281,10 +305,7 @@ class ZmqClient::Impl {
       }
     }
     zmq_poll(items.data(), static_cast<int>(count), untilThen_ms(deadline));
-    std::uint64_t calls = 0;
-    if ((items[0].revents & ZMQ_POLLIN) != 0) {
-      [[maybe_unused]] const auto size = read(wake_, &calls, sizeof calls);
-    }
+    if ((items[0].revents & ZMQ_POLLIN) != 0) wake_.clear();
   }
 
   void readMonitor(Channel channel) {
@@ -372,17 +393,17 @@ class ZmqClient::Impl {
     if (now >= reopen_at_) open(now);
   }
 
+  /// The first that is not up; called while one is not.
   Channel missing() const {
-    for (std::size_t i = 0; i < kChannels; ++i) {
-      if (!(*connections_)[i].up) return static_cast<Channel>(i);
-    }
-    return kTelemetry;
+    std::size_t i = 0;
+    while (i + 1 < kChannels && (*connections_)[i].up) ++i;
+    return static_cast<Channel>(i);
   }
 
   const Options options_;
   Handler& handler_;
-  const int wake_ = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-  zmq::context_t context_{1};
+  Wake wake_;
+  zmq::context_t context_ = newContext();
   std::unique_ptr<std::array<Connection, kChannels>> connections_;
   std::uint64_t next_monitor_ = 0;
   bool connected_ = false;

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cerrno>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +11,7 @@
 #include "test/link/interposed.h"
 #include "test/link/loopback.h"
 #include "test/link/no_more_files.h"
+#include "test/link/no_more_threads.h"
 
 namespace frontseat_driver::link::testing {
 namespace {
@@ -26,6 +29,7 @@ const Address kAddresses[] = {
     {"ipv4", "127.0.0.1", "127.0.0.1", "127.0.0.1:"},
     {"name", "127.0.0.1", "localhost", "127.0.0.1:"},
     {"second_address_of_the_name", "127.0.0.1", "second.test", "127.0.0.1:"},
+    {"name_with_an_address_that_is_none_of_tcp", "127.0.0.1", "mixed.test", "127.0.0.1:"},
     {"ipv6", "::1", "::1", "[::1]:"},
     {"ipv6_in_brackets", "::1", "[::1]", "[::1]:"}};
 
@@ -71,6 +75,9 @@ const Failure kFailures[] = {
     {"absent_name", "absent.test", "host name 'absent.test' not found"},
     {"no_name_server", "broken.test",
      "host name 'broken.test' could not be looked up: Temporary failure in name resolution"},
+    {"no_file_for_the_look_up", "files.test",
+     "host name 'files.test' could not be looked up: Too many open files"},
+    {"no_address_of_tcp", "alien.test", "host name 'alien.test' not found"},
     {"hanging_name", "hanging.test",
      "host name 'hanging.test' could not be looked up within 0.2 s"}};
 
@@ -175,6 +182,47 @@ TEST(Connect, WaitsUntilAFileCanBeOpened) {
   EXPECT_TRUE(runUntil(io, [&] { return client.connected(); }));
 }
 
+TEST(Connect, WaitsUntilAThreadForTheLookUpCanBegin) {
+  boost::asio::io_context io;
+  ServerLog vehicle;
+  const TcpServer server(io, "127.0.0.1", 0, vehicle);
+  ClientLog log;
+  TcpClient client(io, quickOptions("localhost", server.port()), log);
+  {
+    const NoMoreThreads scarce;
+    client.start();
+    ASSERT_TRUE(runUntil(io, [&] { return !log.failures.empty(); }));
+    EXPECT_EQ(log.failures[0],
+              "host name 'localhost' could not be looked up: Resource temporarily unavailable");
+  }
+  EXPECT_TRUE(runUntil(io, [&] { return client.connected(); }));
+}
+
+TEST(Connect, AKernelThatGivesUpHadNoAnswer) {
+  const ReservedPort port;
+  boost::asio::io_context io;
+  ClientLog log;
+  TcpClient client(io, quickOptions("127.0.0.1", port.port()), log);
+  failConnects(ETIMEDOUT);
+  client.start();
+  EXPECT_TRUE(runUntil(io, [&] { return !log.failures.empty(); }));
+  failConnects(0);
+  EXPECT_EQ(log.failures.at(0), "no answer from host 127.0.0.1 within 2.0 s");
+}
+
+TEST(Connect, OneThatIsResetBeforeItIsUsedIsAFailure) {
+  const RawVehicle vehicle;
+  boost::asio::io_context io;
+  ClientLog log;
+  TcpClient client(io, quickOptions("127.0.0.1", vehicle.port()), log);
+  client.start();
+  ASSERT_TRUE(runUntil(io, [&] { return vehicle.called(); }));
+  vehicle.accept().reset();  // the client has not heard yet that it is connected
+  ASSERT_TRUE(runUntil(io, [&] { return !log.failures.empty(); }));
+  EXPECT_TRUE(log.endpoints.empty());
+  EXPECT_TRUE(log.losses.empty());
+}
+
 TEST(Connect, DoesNotTakeItselfForTheVehicle) {
   const ReservedPort port;
   boost::asio::io_context io;
@@ -242,6 +290,21 @@ TEST(Connect, TheEndDoesNotWaitForALookUp) {
   const std::size_t threads_hanging = threads();
   releaseHangingNames();
   EXPECT_TRUE(waitUntil([&] { return threads() < threads_hanging; }));
+  EXPECT_TRUE(log.failures.empty());
+}
+
+TEST(Connect, AResultThatComesWithTheEndIsForgotten) {
+  const ReservedPort port;
+  boost::asio::io_context io;
+  ClientLog log;
+  auto client = std::make_unique<TcpClient>(io, quickOptions("absent.test", port.port()), log);
+  const std::size_t threads_before = threads();
+  client->start();
+  io.run_one();  // begins the look-up
+  ASSERT_TRUE(waitUntil([&] { return threads() <= threads_before; }));
+  client.reset();  // while the result waits to be told
+  io.restart();
+  io.run();
   EXPECT_TRUE(log.failures.empty());
 }
 

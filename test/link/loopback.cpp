@@ -110,6 +110,12 @@ Socket::~Socket() {
   if (fd_ >= 0) ::close(fd_);
 }
 
+void Socket::reset() {
+  const linger at_once{1, 0};
+  setsockopt(fd_, SOL_SOCKET, SO_LINGER, &at_once, sizeof at_once);
+  ::close(std::exchange(fd_, -1));
+}
+
 ReservedPort::ReservedPort() : socket_(boundSocket()), port_(portOf(socket_)) {}
 
 RawVehicle::RawVehicle(int receive_buffer) : listener_(boundSocket()), port_(portOf(listener_)) {
@@ -121,6 +127,11 @@ RawVehicle::RawVehicle(int receive_buffer) : listener_(boundSocket()), port_(por
 
 Socket RawVehicle::accept() const {
   return Socket(checked(::accept(listener_.fd(), nullptr, nullptr), "accept"));
+}
+
+bool RawVehicle::called() const {
+  pollfd waiting{listener_.fd(), POLLIN, 0};
+  return poll(&waiting, 1, 0) == 1;
 }
 
 FullVehicle::FullVehicle(const char* address, std::uint16_t port)
@@ -165,10 +176,12 @@ void ClientLog::onConnectFailed(const std::string& reason, milliseconds retry_in
 
 void ServerLog::onClientConnected(TcpServer::ClientId client, const std::string&) {
   connected.push_back(client);
+  on_connected();
 }
 
 void ServerLog::onClientBytes(TcpServer::ClientId, std::string_view bytes) {
   received.append(bytes);
+  on_bytes();
 }
 
 void ServerLog::onClientDisconnected(TcpServer::ClientId client) { disconnected.push_back(client); }

@@ -41,6 +41,9 @@ class Socket {
   ~Socket();
   int fd() const { return fd_; }
 
+  /// Ends the connection with a reset.
+  void reset();
+
  private:
   int fd_;
 };
@@ -66,6 +69,9 @@ class RawVehicle {
 
   /// Waits for a connection.
   Socket accept() const;
+
+  /// Whether a connection waits to be accepted.
+  bool called() const;
 
  private:
   Socket listener_;
@@ -118,6 +124,8 @@ struct ServerLog : TcpServer::Handler {
   std::vector<TcpServer::ClientId> connected;
   std::vector<TcpServer::ClientId> disconnected;
   std::string received;
+  std::function<void()> on_connected = [] {};
+  std::function<void()> on_bytes = [] {};
 };
 
 /// Options that make a test quick.

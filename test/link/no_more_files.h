@@ -22,6 +22,11 @@ class NoMoreFiles {
   void takeAll() {
     for (int file = dup(2); file >= 0; file = dup(2)) files_.push_back(file);
   }
+  /// Leaves one that can be opened.
+  void spareOne() {
+    close(files_.back());
+    files_.pop_back();
+  }
   ~NoMoreFiles() {
     for (const int file : files_) close(file);
     setrlimit(RLIMIT_NOFILE, &before_);

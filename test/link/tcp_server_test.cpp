@@ -1,6 +1,8 @@
 #include "frontseat_driver/link/tcp_server.h"
 
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
@@ -125,6 +127,63 @@ TEST_F(Server, CloseEndsAllAndTellsNobody) {
   EXPECT_TRUE(vehicle.disconnected.empty());
 }
 
+TEST_F(Server, AClientMayBeTurnedAwayWhenItComes) {
+  vehicle.on_connected = [&] { server.disconnect(vehicle.connected.back()); };
+  Backseat backseat(io, server.port());
+  backseat.log.on_disconnected = [&] { backseat.client.close(); };
+  ASSERT_TRUE(runUntil(io, [&] { return !vehicle.disconnected.empty(); }));
+  ASSERT_TRUE(runUntil(io, [&] { return !backseat.log.losses.empty(); }));
+  EXPECT_EQ(backseat.log.losses[0], "vehicle closed the connection");
+  EXPECT_EQ(vehicle.disconnected, (std::vector<TcpServer::ClientId>{1}));
+}
+
+TEST_F(Server, AClientMayBeDroppedForWhatItSays) {
+  vehicle.on_bytes = [&] { server.reset(1); };
+  const auto backseat = connectOne();
+  ASSERT_TRUE(backseat->client.write("nonsense"));
+  ASSERT_TRUE(runUntil(io, [&] { return !backseat->log.losses.empty(); }));
+  EXPECT_EQ(backseat->log.losses[0], "vehicle reset the connection");
+  EXPECT_EQ(vehicle.received, "nonsense");
+}
+
+TEST_F(Server, MayBeClosedWhenAClientComes) {
+  vehicle.on_connected = [&] { server.close(); };
+  Backseat backseat(io, server.port());
+  ASSERT_TRUE(runUntil(io, [&] { return !backseat.log.failures.empty(); }));
+  EXPECT_EQ(backseat.log.failures[0], "connection refused");
+  EXPECT_EQ(vehicle.connected.size(), 1U);
+}
+
+/// A client that the test resets itself.
+Socket connectedTo(std::uint16_t port) {
+  Socket socket(::socket(AF_INET, SOCK_STREAM, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(connect(socket.fd(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  return socket;
+}
+
+TEST_F(Server, HearsNothingOfAClientThatWasGoneBeforeItWasAccepted) {
+  connectedTo(server.port()).reset();
+  const auto backseat = connectOne();
+  EXPECT_EQ(vehicle.connected.size(), 1U);
+  server.send(1, "telemetry");
+  EXPECT_TRUE(runUntil(io, [&] { return backseat->log.received == "telemetry"; }));
+}
+
+TEST_F(Server, ASendToAClientThatIsGoneIsItsEnd) {
+  Socket client = connectedTo(server.port());
+  ASSERT_TRUE(runUntil(io, [&] { return vehicle.connected.size() == 1; }));
+  client.reset();
+  server.send(1, "telemetry");
+  server.send(1, "telemetry");
+  ASSERT_TRUE(runUntil(io, [&] { return !vehicle.disconnected.empty(); }));
+  io.poll();
+  EXPECT_EQ(vehicle.disconnected, (std::vector<TcpServer::ClientId>{1}));
+}
+
 struct BadBind {
   const char* name;
   const char* address;
@@ -162,6 +221,29 @@ TEST_F(Server, TakesAClientThatCameWhileNoFileCouldBeOpened) {
     EXPECT_TRUE(vehicle.connected.empty());
   }
   EXPECT_TRUE(runUntil(io, [&] { return vehicle.connected.size() == 1; }));
+}
+
+TEST(ServerLimits, MayBeClosedWhileNoFileCanBeOpened) {
+  boost::asio::io_context io;
+  ServerLog vehicle;
+  TcpServer server(io, "127.0.0.1", 0, vehicle);
+  const Socket client = connectedTo(server.port());
+  const NoMoreFiles scarce;
+  io.run_for(milliseconds(50));  // it has tried and waits
+  server.close();
+  io.restart();
+  io.run();  // ends, since nothing is left to do
+  EXPECT_TRUE(vehicle.connected.empty());
+}
+
+TEST_F(Server, NeedsAFileToListen) {
+  const NoMoreFiles scarce;
+  try {
+    const TcpServer second(io, "127.0.0.1", 29500, vehicle);
+    FAIL() << "listens";
+  } catch (const boost::system::system_error& error) {
+    EXPECT_STREQ(error.what(), "cannot listen on 127.0.0.1 port 29500: Too many open files");
+  }
 }
 
 TEST_F(Server, ASecondOneOnThePortIsRefused) {

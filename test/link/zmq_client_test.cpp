@@ -4,10 +4,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 #include <zmq.h>
 
 #include <algorithm>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -106,18 +110,36 @@ struct Drone {
 };
 
 struct Recorder : ZmqClient::Handler {
-  void onConnected(const std::string& at) override { connected.push_back(at); }
+  void onConnected(const std::string& at) override {
+    connected.push_back(at);
+    then("connected");
+  }
   void onTelemetry(std::string_view type, std::string_view payload) override {
     telemetry.push_back({std::string{type}, std::string{payload}});
+    then("telemetry");
   }
   void onReply(std::string_view type, std::string_view payload) override {
     replies.push_back({std::string{type}, std::string{payload}});
+    then("reply");
   }
-  void onNoReply(const std::string& reason) override { lost.push_back(reason); }
-  void onMalformed() override { ++malformed; }
-  void onDisconnected(const std::string& reason) override { disconnected.push_back(reason); }
-  void onConnectFailed(const std::string& reason) override { failed.push_back(reason); }
+  void onNoReply(const std::string& reason) override {
+    lost.push_back(reason);
+    then("no_reply");
+  }
+  void onMalformed() override {
+    ++malformed;
+    then("malformed");
+  }
+  void onDisconnected(const std::string& reason) override {
+    disconnected.push_back(reason);
+    then("disconnected");
+  }
+  void onConnectFailed(const std::string& reason) override {
+    failed.push_back(reason);
+    then("failed");
+  }
 
+  std::function<void(const std::string& report)> then = [](const std::string&) {};
   std::vector<std::string> connected, disconnected, failed, lost;
   std::vector<Message> telemetry, replies;
   int malformed = 0;
@@ -240,6 +262,134 @@ TEST_F(ZmqLink, CountsMessagesThatHaveNotTwoFrames) {
   EXPECT_EQ(recorder_.malformed, 2);
 }
 
+TEST_F(ZmqLink, AReplyOfOneFrameIsNoneAndTheNextRequestIsSent) {
+  start();
+  connect();
+  for (const Message& reply : {Message{"one"}, Message{"one", "two", "three"}}) {
+    recorder_.lost.clear();
+    ASSERT_TRUE(client_->request("A", "1", 30s));
+    ASSERT_TRUE(runUntil([&] { return !drone_->requests.receive().empty(); }));
+    drone_->requests.send(reply);
+    ASSERT_TRUE(runUntil([&] { return !recorder_.lost.empty(); }));
+    EXPECT_THAT(recorder_.lost, ElementsAre("the reply had not two frames"));
+  }
+  EXPECT_THAT(recorder_.replies, IsEmpty());
+  EXPECT_TRUE(client_->request("A", "2", 30s));
+}
+
+TEST_F(ZmqLink, RefusesControlThatTheDroneDoesNotTake) {
+  start();
+  connect();
+  const std::string payload(1 << 16, 'x');
+  std::size_t taken = 0;
+  while (client_->publish("Ctrl", payload)) ++taken;  // the drone reads nothing
+  EXPECT_GT(taken, 0u);
+  EXPECT_TRUE(client_->connected());
+  ASSERT_TRUE(runUntil([&] {
+    while (!drone_->control.receive().empty()) {
+    }
+    return client_->publish("last", "");
+  }));
+  EXPECT_THAT(recorder_.disconnected, IsEmpty());
+}
+
+TEST_F(ZmqLink, TellsNothingBeforeAllThreeConnectionsAreThere) {
+  for (const auto missing : {&ZmqClient::Options::telemetry_port, &ZmqClient::Options::request_port,
+                             &ZmqClient::Options::control_port}) {
+    recorder_ = {};
+    const Message telemetry{"DepthTel", ""};
+    void* const gone = zmq_ctx_new();
+    const std::uint16_t port = Socket(gone, ZMQ_REP, 0).port();
+    zmq_ctx_term(gone);
+    start([&](ZmqClient::Options& options) { options.*missing = port; });
+    ASSERT_TRUE(runUntil([&] {
+      drone_->telemetry.send(telemetry);
+      return !recorder_.failed.empty();
+    }));
+    EXPECT_THAT(recorder_.failed[0], HasSubstr(":" + std::to_string(port) + " "));
+    EXPECT_THAT(recorder_.telemetry, IsEmpty());
+    EXPECT_THAT(recorder_.connected, IsEmpty());
+  }
+}
+
+/// Accepts connections and ends them.
+class NoDrone {
+ public:
+  NoDrone() : listener_(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof address;
+    EXPECT_EQ(bind(listener_, reinterpret_cast<const sockaddr*>(&address), size), 0);
+    EXPECT_EQ(listen(listener_, 8), 0);
+    getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+  }
+  ~NoDrone() { close(listener_); }
+  NoDrone(const NoDrone&) = delete;
+  NoDrone& operator=(const NoDrone&) = delete;
+
+  std::uint16_t port() const { return port_; }
+  void endAll() {
+    for (int peer = accept(listener_); peer >= 0; peer = accept(listener_)) close(peer);
+  }
+
+ private:
+  static int accept(int listener) { return ::accept(listener, nullptr, nullptr); }
+
+  int listener_;
+  std::uint16_t port_ = 0;
+};
+
+TEST_F(ZmqLink, APeerThatEndsEveryConnectionIsNoDrone) {
+  NoDrone peer;
+  start([&](ZmqClient::Options& options) { options.request_port = peer.port(); });
+  ASSERT_TRUE(runUntil([&] {
+    peer.endAll();
+    return !recorder_.failed.empty();
+  }));
+  EXPECT_THAT(recorder_.failed[0],
+              HasSubstr("no answer at 127.0.0.1:" + std::to_string(peer.port())));
+  EXPECT_THAT(recorder_.connected, IsEmpty());
+  EXPECT_THAT(recorder_.disconnected, IsEmpty());
+}
+
+TEST_F(ZmqLink, MayBeClosedFromInsideEveryReport) {
+  for (const std::string report :
+       {"connected", "telemetry", "reply", "no_reply", "malformed", "disconnected", "failed"}) {
+    SCOPED_TRACE(report);
+    recorder_ = {};
+    start([](ZmqClient::Options& options) { options.silence_timeout = 500ms; });
+    bool closed = false;
+    recorder_.then = [&](const std::string& heard) {
+      EXPECT_FALSE(closed && heard != "disconnected") << heard << " after the end";
+      if (heard == report && !closed) {
+        closed = true;
+        client_->close();
+      }
+    };
+    if (report == "failed") drone_.reset();
+    ASSERT_TRUE(runUntil([&] {
+      if (closed || !drone_) return closed;
+      if (report == "telemetry") drone_->telemetry.send({"DepthTel", ""});
+      if (report == "malformed") drone_->telemetry.send({"one"});
+      if (report == "reply") client_->request("A", "", 30s);
+      if (report == "no_reply") client_->request("A", "", 10ms);
+      if (report == "reply" && !drone_->requests.receive().empty()) {
+        drone_->requests.send({"ARep", ""});
+      }
+      return closed;
+    }));
+    client_->start();
+    client_->reconnect("too late");
+    client_->run(Clock::now());
+    EXPECT_FALSE(client_->connected());
+    EXPECT_EQ(recorder_.disconnected.size(), recorder_.connected.size());
+    client_->close();
+    EXPECT_EQ(recorder_.disconnected.size(), recorder_.connected.size()) << "told once";
+  }
+}
+
 TEST_F(ZmqLink, NoticesALostDroneConnectsToItsSuccessorAndBringsItNothingOld) {
   start();
   connect();
@@ -292,6 +442,28 @@ TEST_F(ZmqLink, ReportsAHostThatIsNoneAndTriesAgain) {
     EXPECT_THAT(recorder_.failed[0], HasSubstr(host));
     EXPECT_FALSE(client_->connected());
     ASSERT_NO_THROW(client_->close()) << host;
+  }
+}
+
+TEST_F(ZmqLink, ReportsATimeThatIsNone) {
+  start([](ZmqClient::Options& options) { options.connect_timeout = -1s; });
+  ASSERT_TRUE(runUntil([&] { return !recorder_.failed.empty(); }));
+  EXPECT_THAT(recorder_.failed[0], HasSubstr("Invalid argument"));
+}
+
+TEST_F(ZmqLink, SaysThatNoFileCanBeOpenedForIt) {
+  for (const bool one_left : {false, true}) {
+    NoMoreFiles scarce;
+    if (one_left) scarce.spareOne();
+    try {
+      ZmqClient client(options_, recorder_);
+      FAIL() << "made from nothing";
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr("Too many open files"));
+    }
+    const int left = dup(2);
+    EXPECT_EQ(left >= 0, one_left) << "none is kept";
+    close(left);
   }
 }
 

@@ -206,8 +206,9 @@ class BlueyeServer::Impl : public BlueyeDrone::Sink {
     if (sockets_ || Steady::now() < next_bind_) return;
     try {
       sockets_.emplace(*context_, config_);
-    } catch (const std::runtime_error&) {
-      next_bind_ = Steady::now() + kRebindPause;  // the old sockets are still being closed
+    } catch (const std::exception&) {
+      // The old sockets are still being closed, or no file can be opened.
+      next_bind_ = Steady::now() + kRebindPause;
     }
   }
 
