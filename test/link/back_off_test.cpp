@@ -59,6 +59,12 @@ std::vector<milliseconds> delays(std::uint64_t seed) {
 
 TEST(BackOff, RepeatsWithItsSeed) { EXPECT_EQ(delays(7), delays(7)); }
 
+TEST(BackOff, IsLeftToChanceWithoutASeed) {
+  std::set<std::vector<milliseconds>> found;
+  for (int i = 0; i < 16; ++i) found.insert(delays(0));
+  EXPECT_GT(found.size(), 1U);
+}
+
 TEST(BackOff, SpreadsOverSeeds) {
   std::set<std::vector<milliseconds>> different;
   for (std::uint64_t seed = 1; seed <= 50; ++seed) different.insert(delays(seed));
