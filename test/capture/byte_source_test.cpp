@@ -3,9 +3,12 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/time.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -41,6 +44,47 @@ TEST(FileSource, NamesTheFileThatIsNotThere) {
   } catch (const std::system_error& error) {
     EXPECT_EQ(error.code().value(), ENOENT);
     EXPECT_EQ(std::string{error.what()}, "no/such\nfile: No such file or directory");
+  }
+}
+
+/// Puts a file in the place of the standard input while it lives.
+class StandardInput {
+ public:
+  explicit StandardInput(int file) : before_(dup(STDIN_FILENO)) {
+    ::close(STDIN_FILENO);
+    if (file >= 0) dup2(file, STDIN_FILENO);
+  }
+  ~StandardInput() {
+    dup2(before_, STDIN_FILENO);
+    ::close(before_);
+  }
+  StandardInput(const StandardInput&) = delete;
+  StandardInput& operator=(const StandardInput&) = delete;
+
+ private:
+  int before_;
+};
+
+TEST(FileSource, ReadsWhatIsPipedIntoIt) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  const StandardInput input{ends[0]};
+  ASSERT_EQ(write(ends[1], "$A*00\n", 6), 6);
+  ::close(ends[1]);
+  const auto source = FileSource::standardInput();
+  ::close(ends[0]);
+  EXPECT_EQ(source->size(), std::nullopt);
+  EXPECT_FALSE(source->live());
+  EXPECT_EQ(readAll(*source), "$A*00\n");
+}
+
+TEST(FileSource, SaysThatThereIsNoStandardInput) {
+  const StandardInput none{-1};
+  try {
+    const auto source = FileSource::standardInput();
+    FAIL();
+  } catch (const std::system_error& error) {
+    EXPECT_EQ(std::string{error.what()}, "standard input: Bad file descriptor");
   }
 }
 
@@ -105,6 +149,26 @@ TEST(FileSource, NamesTheRatesThatThereAre) {
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string{error.what()}.substr(0, 34), "baud rate 12345 is none of 1200, 2");
   }
+}
+
+/// In a process of its own, since nothing takes the end back.
+TEST(FileSourceDeathTest, ASignalEndsAReadThatWaits) {
+  const auto readUntilTold = [] {
+    Terminal terminal;
+    const auto source = FileSource::openSerial(terminal.path(), 9600);
+    struct sigaction interrupt {};
+    interrupt.sa_handler = [](int) {
+      static volatile std::sig_atomic_t signals = 0;
+      signals = signals + 1;
+      if (signals == 2) FileSource::endReading();  // after the first it waits again
+    };
+    sigaction(SIGALRM, &interrupt, nullptr);
+    const itimerval often{{0, 10000}, {0, 10000}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    char room[8];
+    std::exit(source->read(room, sizeof room) == 0 ? 0 : 1);
+  };
+  EXPECT_EXIT(readUntilTold(), testing::ExitedWithCode(0), "");
 }
 
 TEST(FileSource, TakesOnlyATerminalForSerial) {

@@ -161,6 +161,13 @@ std::string interface(unsigned link_type, Order order, const std::string& option
   return block(1, number(link_type, 2, order) + zeros(2) + number(0, 4, order) + options, order);
 }
 
+/// `resolution` as the option if_tsresol has it: 10^-n s, with the top bit set 2^-n s.
+std::string withResolution(unsigned resolution, std::int64_t offset_s = 0) {
+  return interface(1, Order::Little,
+                   little(9, 2) + little(1, 2) + little(resolution, 4) + little(14, 2) +
+                       little(8, 2) + little(static_cast<std::uint64_t>(offset_s), 8));
+}
+
 std::string enhanced(const std::string& packet, std::uint64_t time, Order order,
                      unsigned of_interface = 0) {
   return block(6,
@@ -182,6 +189,8 @@ const Wrapped kWrapped[] = {
     {"vlan", onLine(1, zeros(12) + big(0x8100, 2) + big(7, 2) + big(0x0800, 2) + kV4)},
     {"two_vlans", onLine(1, zeros(12) + big(0x88A8, 2) + big(7, 2) + big(0x8100, 2) + big(8, 2) +
                                 big(0x86DD, 2) + kV6)},
+    {"vlan_of_an_older_switch",
+     onLine(1, zeros(12) + big(0x9100, 2) + big(7, 2) + big(0x0800, 2) + kV4)},
     {"padding_behind_the_packet", onLine(1, ethernet(kV4) + zeros(6))},
     {"cooked", onLine(113, zeros(14) + big(0x0800, 2) + kV4)},
     {"cooked_2", onLine(276, big(0x86DD, 2) + zeros(18) + kV6)},
@@ -190,10 +199,17 @@ const Wrapped kWrapped[] = {
     {"loop", onLine(108, big(2, 4) + kV4)},
     {"raw", onLine(101, kV4)},
     {"raw_ipv6", onLine(101, kV6)},
+    {"raw_bsd", onLine(12, kV4)},
+    {"raw_openbsd", onLine(14, kV4)},
     {"ipv4", onLine(228, kV4)},
     {"ipv6", onLine(229, kV6)},
     {"ipv6_with_extensions",
      onLine(101, ipv6("\x3C" + zeros(7) + "\x06" + zeros(7) + tcp(kVehicle, kPayload, 0, kA), 0))},
+    {"ipv6_with_authentication",
+     onLine(101, ipv6("\x06\x04" + zeros(22) + tcp(kVehicle, kPayload, 0, kA), 51))},
+    {"ipv6_with_routing",
+     onLine(101, ipv6("\x06" + zeros(7) + tcp(kVehicle, kPayload, 0, kA), 43))},
+    {"ipv6_without_length", onLine(101, std::string(kV6).replace(4, 2, zeros(2)))},
     {"no_length_from_the_card", onLine(101, std::string(kV4).replace(2, 2, zeros(2)))},
     {"big_endian", Pcap{1, Order::Big}.add(ethernet(kV4)).bytes()},
     {"nanoseconds", Pcap{1, Order::Little, true}.add(ethernet(kV4)).bytes()},
@@ -208,6 +224,40 @@ const Wrapped kWrapped[] = {
     {"pcapng_nanoseconds",
      ng(Order::Little, interface(1, Order::Little, little(9, 2) + little(1, 2) + little(9, 4)) +
                            enhanced(ethernet(kV4), 1'000'000'000, Order::Little))},
+    {"pcapng_picoseconds",
+     ng(Order::Little,
+        withResolution(12) + enhanced(ethernet(kV4), 1'000'000'000'000, Order::Little))},
+    {"pcapng_whole_seconds",
+     ng(Order::Little, withResolution(0) + enhanced(ethernet(kV4), 1, Order::Little))},
+    {"pcapng_resolution_behind_the_last_option",
+     ng(Order::Little,
+        interface(1, Order::Little, little(0, 4) + little(9, 2) + little(1, 2) + little(9, 4)) +
+            enhanced(ethernet(kV4), 1'000'000, Order::Little))},
+    {"pcapng_resolution_and_offset_of_another_length",
+     ng(Order::Little, interface(1, Order::Little,
+                                 little(9, 2) + little(2, 2) + little(9, 4) + little(14, 2) +
+                                     little(4, 2) + little(9, 4)) +
+                           enhanced(ethernet(kV4), 1'000'000, Order::Little))},
+    {"pcapng_option_longer_than_its_block",
+     ng(Order::Little, interface(1, Order::Little, little(9, 2) + little(400, 2)) +
+                           enhanced(ethernet(kV4), 1'000'000, Order::Little))},
+    {"pcapng_old_packet_block",
+     ng(Order::Little,
+        interface(1, Order::Little) + block(2,
+                                            little(0, 4) + little(0, 4) + little(1'000'000, 4) +
+                                                little(ethernet(kV4).size(), 4) +
+                                                little(ethernet(kV4).size(), 4) + ethernet(kV4),
+                                            Order::Little))},
+    {"pcapng_interface_that_nobody_told_of",
+     ng(Order::Little, interface(1, Order::Little) +
+                           enhanced(ethernet(kV4), 9'000'000, Order::Little, 1) +
+                           enhanced(ethernet(kV4), 1'000'000, Order::Little))},
+    {"pcapng_interface_block_too_short",
+     ng(Order::Little, block(1, "abc", Order::Little) + interface(1, Order::Little) +
+                           enhanced(ethernet(kV4), 1'000'000, Order::Little))},
+    {"pcapng_packet_block_too_short",
+     ng(Order::Little, interface(1, Order::Little) + block(6, zeros(16), Order::Little) +
+                           enhanced(ethernet(kV4), 1'000'000, Order::Little))},
     {"pcapng_binary_fractions",
      ng(Order::Little, interface(1, Order::Little, little(9, 2) + little(1, 2) + little(0x8A, 4)) +
                            enhanced(ethernet(kV4), 1024, Order::Little))},
@@ -265,6 +315,79 @@ TEST(PacketReader, GivesNoTimeWhereABlockHasNone) {
   const auto entry = reader.next();
   ASSERT_TRUE(entry);
   EXPECT_EQ(entry->time, std::nullopt);
+}
+
+struct Untimed {
+  const char* name;
+  unsigned resolution;
+  std::int64_t offset_s;
+  std::uint64_t count;
+};
+
+const Untimed kUntimed[] = {{"finer_than_64_bits", 20, 0, 1},
+                            {"finer_than_64_binary_digits", 0x80 | 64, 0, 1},
+                            {"later_than_nanoseconds_count", 0, 0, 9'000'000'001},
+                            {"later_by_its_offset", 0, 8'000'000'000, 8'000'000'000},
+                            {"before_1970", 0, -2, 1},
+                            {"offset_far_ahead", 0, 9'000'000'000, 1},
+                            {"offset_far_back", 0, -9'000'000'000, 1}};
+
+class NoTime : public testing::TestWithParam<Untimed> {};
+
+TEST_P(NoTime, IsTheirsAndTheirLinesAreRead) {
+  PacketReader reader =
+      readerOf(ng(Order::Little, withResolution(GetParam().resolution, GetParam().offset_s) +
+                                     enhanced(ethernet(kV4), GetParam().count, Order::Little)));
+  const auto entry = reader.next();
+  ASSERT_TRUE(entry);
+  EXPECT_EQ(entry->line, "$A,111*00");
+  EXPECT_EQ(entry->time, std::nullopt);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, NoTime, testing::ValuesIn(kUntimed),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+const Wrapped kNotOurs[] = {
+    {"radio", onLine(147, ethernet(kV4))},
+    {"arp", onLine(1, ethernet(kV4, 0x0806))},
+    {"five_vlans", onLine(1, zeros(12) + big(0x8100, 2) + big(7, 2) + big(0x8100, 2) + big(7, 2) +
+                                 big(0x8100, 2) + big(7, 2) + big(0x8100, 2) + big(7, 2) +
+                                 big(0x8100, 2) + big(7, 2) + big(0x0800, 2) + kV4)},
+    {"vlan_without_packet", onLine(1, zeros(12) + big(0x8100, 2) + zeros(1))},
+    {"ip_version_5", onLine(101, std::string(kV4).replace(0, 1, "\x55"))},
+    {"ip_header_of_four_words", onLine(101, std::string(kV4).replace(0, 1, "\x44"))},
+    {"ip_header_longer_than_the_packet", onLine(101, "\x4F" + kV4.substr(1, 49))},
+    {"ip_shorter_than_its_header", onLine(101, std::string(kV4).replace(2, 2, big(19, 2)))},
+    {"ip_cut_off", onLine(101, kV4.substr(0, 19))},
+    {"udp", onLine(101, std::string(kV4).replace(9, 1, "\x11"))},
+    {"tcp_header_of_four_words", onLine(101, std::string(kV4).replace(32, 1, "\x40"))},
+    {"tcp_header_longer_than_the_segment", onLine(101, std::string(kV4).replace(32, 1, "\xF0"))},
+    {"tcp_cut_off", onLine(101, kV4.substr(0, 39))},
+    {"ipv6_udp", onLine(101, ipv6(tcp(kVehicle, kPayload, 0, kA), 17))},
+    {"ipv6_cut_off", onLine(101, kV6.substr(0, 39))},
+    {"ipv6_extension_cut_off", onLine(101, ipv6("\x06", 0))},
+    {"ipv6_extension_longer_than_the_packet", onLine(101, ipv6("\x06\xFF" + zeros(6), 0))},
+    {"loopback_family_alone", onLine(0, little(2, 4))}};
+
+class NotOurs : public testing::TestWithParam<Wrapped> {};
+
+TEST_P(NotOurs, IsPassedOver) {
+  PacketReader reader = readerOf(GetParam().file);
+  EXPECT_EQ(linesOf(reader), Lines{});
+  EXPECT_FALSE(reader.counters().breaks_off);
+  EXPECT_EQ(reader.counters().bytes, GetParam().file.size());
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, NotOurs, testing::ValuesIn(kNotOurs),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(PacketReader, KeepsNoMoreInterfacesThanAnyCaptureHas) {
+  std::string interfaces;
+  for (int i = 0; i < 257; ++i) interfaces += interface(1, Order::Little);
+  EXPECT_EQ(
+      read(ng(Order::Little, interfaces + enhanced(ethernet(kV4), 1'000'000, Order::Little, 256) +
+                                 enhanced(ethernet(kV4), 1'000'000, Order::Little, 255))),
+      Lines{"$A,111*00"});
 }
 
 struct Segments {
