@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 
 #include "frontseat_driver/sim/angles.h"
 #include "reflection.h"
@@ -10,16 +11,22 @@
 namespace frontseat_driver::sim {
 namespace {
 
+/// Reads a message; `act` then does as it says, and tells whether the drone could.
+BlueyeTaken take(google::protobuf::MessageLite& message, std::string_view data,
+                 const std::function<bool()>& act) {
+  if (!message.ParseFromArray(data.data(), static_cast<int>(data.size()))) {
+    return BlueyeTaken::Malformed;
+  }
+  if (!isFinite(nameOf(message), data)) return BlueyeTaken::Refused;
+  return act() ? BlueyeTaken::Obeyed : BlueyeTaken::Refused;
+}
+
 /// A row of the table: `act` is called with the message, and tells whether the drone could.
 template <class Message>
 BlueyeControl control(bool (*act)(BlueyeCore&, const Message&)) {
   return {nameOf<Message>(), [act](BlueyeCore& core, std::string_view data) {
             Message message;
-            if (!message.ParseFromArray(data.data(), static_cast<int>(data.size()))) {
-              return BlueyeTaken::Malformed;
-            }
-            if (!isFinite(nameOf<Message>(), data)) return BlueyeTaken::Refused;
-            return act(core, message) ? BlueyeTaken::Obeyed : BlueyeTaken::Refused;
+            return take(message, data, [&] { return act(core, message); });
           }};
 }
 
@@ -47,24 +54,25 @@ bool watchdog(BlueyeCore& core, const bp::WatchdogCtrl& message) {
   return true;
 }
 
+bool switchMode(BlueyeCore& core, bool BlueyeModes::*member, bool on) {
+  const bool needs_altitude =
+      member == &BlueyeModes::auto_altitude || member == &BlueyeModes::weather_vaning;
+  if (on && needs_altitude && !core.altitudeValid()) return false;
+  BlueyeModes modes = core.computer.pilot.modes();
+  modes.*member = on;
+  if (on && member == &BlueyeModes::auto_depth) modes.auto_altitude = false;
+  if (on && member == &BlueyeModes::auto_altitude) modes.auto_depth = false;
+  core.setModes(modes);
+  return true;
+}
+
 template <class Message>
 BlueyeControl mode(bool BlueyeModes::*member) {
   // The member is part of the type of nothing: it has to be carried along.
   return {nameOf<Message>(), [member](BlueyeCore& core, std::string_view data) {
             Message message;
-            if (!message.ParseFromArray(data.data(), static_cast<int>(data.size()))) {
-              return BlueyeTaken::Malformed;
-            }
-            const bool on = message.state().enabled();
-            const bool needs_altitude =
-                member == &BlueyeModes::auto_altitude || member == &BlueyeModes::weather_vaning;
-            if (on && needs_altitude && !core.altitudeValid()) return BlueyeTaken::Refused;
-            BlueyeModes modes = core.computer.pilot.modes();
-            modes.*member = on;
-            if (on && member == &BlueyeModes::auto_depth) modes.auto_altitude = false;
-            if (on && member == &BlueyeModes::auto_altitude) modes.auto_depth = false;
-            core.setModes(modes);
-            return BlueyeTaken::Obeyed;
+            return take(message, data,
+                        [&] { return switchMode(core, member, message.state().enabled()); });
           }};
 }
 

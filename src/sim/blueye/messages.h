@@ -4,6 +4,7 @@
 
 #include <google/protobuf/any.pb.h>
 #include <google/protobuf/empty.pb.h>
+#include <google/protobuf/message_lite.h>
 #include <google/protobuf/wrappers.pb.h>
 
 #include <string>
@@ -23,9 +24,12 @@ namespace bp = ::blueye::protocol;
 constexpr const char* kBlueyePackage = "blueye.protocol.";
 
 /// A message's name without its package.
+inline std::string nameOf(const google::protobuf::MessageLite& message) {
+  return message.GetTypeName().substr(std::string{kBlueyePackage}.size());
+}
 template <class Message>
 std::string nameOf() {
-  return Message{}.GetTypeName().substr(std::string{kBlueyePackage}.size());
+  return nameOf(Message{});
 }
 
 }  // namespace frontseat_driver::sim

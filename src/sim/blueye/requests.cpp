@@ -1,6 +1,7 @@
 #include "requests.h"
 
 #include <chrono>
+#include <functional>
 
 #include "reflection.h"
 #include "telemetry.h"
@@ -10,22 +11,27 @@ namespace {
 
 constexpr double kFastest_hz = 100.0;
 
+/// Reads a request, which `act` then answers in `reply`; none if it cannot be read.
+std::optional<std::string> answer(BlueyeCore& core, std::string_view data,
+                                  google::protobuf::MessageLite& request,
+                                  const google::protobuf::MessageLite& reply,
+                                  const std::function<void()>& act) {
+  if (!request.ParseFromArray(data.data(), static_cast<int>(data.size()))) return std::nullopt;
+  if (isFinite(nameOf(request), data)) {
+    act();
+  } else {
+    ++core.counts.refused;
+  }
+  return reply.SerializeAsString();
+}
+
 /// A row of the table: `act` fills the answer.
 template <class Request, class Reply>
 BlueyeRequest request(void (*act)(BlueyeCore&, const Request&, Reply&)) {
-  return {nameOf<Request>(), nameOf<Reply>(),
-          [act](BlueyeCore& core, std::string_view data) -> std::optional<std::string> {
+  return {nameOf<Request>(), nameOf<Reply>(), [act](BlueyeCore& core, std::string_view data) {
             Request message;
-            if (!message.ParseFromArray(data.data(), static_cast<int>(data.size()))) {
-              return std::nullopt;
-            }
             Reply reply;
-            if (isFinite(nameOf<Request>(), data)) {
-              act(core, message, reply);
-            } else {
-              ++core.counts.refused;
-            }
-            return reply.SerializeAsString();
+            return answer(core, data, message, reply, [&] { act(core, message, reply); });
           }};
 }
 
