@@ -8,6 +8,7 @@
 
 #include "bench.h"
 #include "frontseat_driver/sim/angles.h"
+#include "refusals.h"
 
 namespace frontseat_driver::sim {
 namespace {
@@ -31,6 +32,10 @@ TEST(SimulatorParameters, TakeTheirOwnDefaultsAndStayTheSame) {
     EXPECT_EQ(setParameter(config, parameter.name, before), std::nullopt) << parameter.name;
     EXPECT_EQ(parameter.get(config), before) << parameter.name;
   }
+}
+
+TEST(SimulatorParameters, NumbersAndFlagsRefuseWhatIsNone) {
+  expectRefusals(simulatorParameters());
 }
 
 struct Value {
@@ -65,7 +70,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Value{"loop_corners", "0 0 10 0 10 10", "[0, 0, 10, 0, 10, 10]"},
                     Value{"yaw_rate_unit", "deg", "deg"}, Value{"yaw_rate_unit", "rad", "rad"},
                     Value{"imu_name", "IMU", "IMU"}, Value{"imu_name", "RIM", "RIM"},
-                    Value{"solution_age", "0.05", "0.05"}, Value{"clock_offset", "-18", "-18"}),
+                    Value{"solution_age", "0.05", "0.05"}, Value{"clock_offset", "-18", "-18"},
+                    Value{"bind", "0.0.0.0", "0.0.0.0"}, Value{"loop", "1", "true"},
+                    Value{"loop", "0", "false"}, Value{"loop_corners", "[]", "[]"},
+                    Value{"waves", "0.1", "0.1"}, Value{"compass_id", "99", "99"},
+                    Value{"dive_file", "night dive", "night dive"}),
     [](const auto& row) { return std::string{row.param.name} + "_" + std::to_string(row.index); });
 
 class Refused : public testing::TestWithParam<Value> {};
@@ -89,9 +98,15 @@ INSTANTIATE_TEST_SUITE_P(
                     Value{"speed", "2x", "number"}, Value{"datum", "[91, 0]", "latitude"},
                     Value{"datum", "[42]", "latitude"}, Value{"noise", "maybe", "true or false"},
                     Value{"rates", "NVG", "pairs"}, Value{"rates", "NVG: -1", "pairs"},
+                    Value{"rates", "NVG: fast", "pairs"}, Value{"rates", "NVG: 1001", "pairs"},
                     Value{"quirks", "none", "unpadded_minutes"},
+                    Value{"datum", "[0, -181]", "longitude"}, Value{"datum", "north", "latitude"},
+                    Value{"start", "1 2", "yaw"}, Value{"current", "1", "5 m/s"},
                     Value{"drop", "1.5", "from 0 to 1"}, Value{"legs", "1 2 3", "groups of four"},
-                    Value{"legs", "1 2 3 9", "m/s"}, Value{"loop_corners", "1 2", "two at least"},
+                    Value{"legs", "1 2 3 9", "m/s"}, Value{"legs", "1 2 3 0", "m/s"},
+                    Value{"legs", "1 2 -3 1", "m depth"}, Value{"loop_corners", "1 2 3", "pairs"},
+                    Value{"waves", "0.6", "0.5"}, Value{"solution_age", "1.5", "from 0 to 1"},
+                    Value{"loop_corners", "1 2", "two at least"},
                     Value{"current", "[5, 5]", "5 m/s"}, Value{"dive_file", "a,b", "printable"}),
     [](const auto& row) { return std::string{row.param.name} + "_" + std::to_string(row.index); });
 

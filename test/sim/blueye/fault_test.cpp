@@ -4,6 +4,7 @@
 
 #include "deck.h"
 #include "frontseat_driver/sim/blueye/parameters.h"
+#include "test/sim/refusals.h"
 
 namespace frontseat_driver::sim {
 namespace {
@@ -168,6 +169,8 @@ TEST(Parameters, TakeTheirOwnDefaultsAndStayTheSame) {
   }
 }
 
+TEST(Parameters, NumbersAndFlagsRefuseWhatIsNone) { expectRefusals(blueyeParameters()); }
+
 struct Value {
   const char* name;
   const char* value;
@@ -187,13 +190,16 @@ TEST_P(AcceptedValue, IsKept) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, AcceptedValue,
-    testing::Values(Value{"bind", "::1", "::1"}, Value{"telemetry_port", "0", "0"},
-                    Value{"devices", "[gripper, dvl]", "[dvl, gripper]"},
-                    Value{"devices", "[]", "[]"},
-                    Value{"rates", "{DepthTel: 40, Imu1Tel: 100}", "{DepthTel: 40, Imu1Tel: 100}"},
-                    Value{"yaw_positive", "left", "left"},
-                    Value{"accelerometer_sign", "gravity", "gravity"},
-                    Value{"datum", "[-42.5, 147]", "[-42.5, 147]"}));
+    testing::Values(
+        Value{"bind", "::1", "::1"}, Value{"telemetry_port", "0", "0"},
+        Value{"devices", "[gripper, dvl]", "[dvl, gripper]"}, Value{"devices", "[]", "[]"},
+        Value{"rates", "{DepthTel: 40, Imu1Tel: 100}", "{DepthTel: 40, Imu1Tel: 100}"},
+        Value{"yaw_positive", "left", "left"}, Value{"accelerometer_sign", "gravity", "gravity"},
+        Value{"accelerometer_sign", "specific_force", "specific_force"},
+        Value{"devices", "dvl dvl", "[dvl]"}, Value{"rates", "{}", "{}"},
+        Value{"http", "0", "false"}, Value{"http", "True", "true"},
+        Value{"start", "1 2 0.5", "[1, 2, 0.5]"}, Value{"current", "[0, 2]", "[0, 2]"},
+        Value{"serial_number", "SIM7", "SIM7"}, Value{"datum", "[-42.5, 147]", "[-42.5, 147]"}));
 
 class RefusedValue : public testing::TestWithParam<Value> {};
 
@@ -205,14 +211,21 @@ TEST_P(RefusedValue, IsNamedWithWhatIsAccepted) {
   EXPECT_NE(wrong->find(GetParam().reads_back), std::string::npos) << *wrong;
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, RefusedValue,
-                         testing::Values(Value{"bind", "localhost", "in numbers"},
-                                         Value{"http_port", "65536", "65535"},
-                                         Value{"devices", "[kraken]", "gripper"},
-                                         Value{"rates", "{NoSuchTel: 4}", "telemetry message"},
-                                         Value{"rates", "{DepthTel: 101}", "from 0 to 100"},
-                                         Value{"yaw_positive", "up", "right or left"},
-                                         Value{"lose_reply", "1", "lose_replies"}));
+INSTANTIATE_TEST_SUITE_P(
+    Table, RefusedValue,
+    testing::Values(Value{"bind", "localhost", "in numbers"}, Value{"http_port", "65536", "65535"},
+                    Value{"devices", "[kraken]", "gripper"},
+                    Value{"rates", "{NoSuchTel: 4}", "telemetry message"},
+                    Value{"rates", "{DepthTel: 101}", "from 0 to 100"},
+                    Value{"rates", "{DepthTel: -1}", "from 0 to 100"},
+                    Value{"rates", "{DepthTel: fast}", "a number"},
+                    Value{"rates", "DepthTel", "pairs"}, Value{"datum", "[91, 0]", "latitude"},
+                    Value{"datum", "[0, 181]", "longitude"}, Value{"datum", "[0]", "latitude"},
+                    Value{"datum", "here", "latitude"}, Value{"start", "1 2", "yaw"},
+                    Value{"current", "[2, 2]", "2 m/s at most"},
+                    Value{"current", "[1]", "[east, north]"}, Value{"serial_number", "", "text"},
+                    Value{"yaw_positive", "up", "right or left"},
+                    Value{"lose_reply", "1", "lose_replies"}));
 
 }  // namespace
 }  // namespace frontseat_driver::sim

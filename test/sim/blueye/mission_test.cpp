@@ -414,6 +414,63 @@ TEST(Mission, SkipsWhatTheDroneCannotDo) {
   EXPECT_EQ(std::count(all.begin(), all.end(), int{bp::NOTIFICATION_TYPE_INSTRUCTION_SKIPPED}), 3);
 }
 
+struct Impossible {
+  const char* name;
+  void (*add)(Plan&);
+};
+class Skipped : public testing::TestWithParam<Impossible> {};
+
+TEST_P(Skipped, IsSaidAndTheMissionGoesOn) {
+  BlueyeConfig config = quietDrone();
+  config.devices = {};  // neither a DVL nor a servo
+  Deck deck{config};
+  deck.connect();
+  Plan plan;
+  GetParam().add(plan);
+  plan.wait(1.0F);
+  load(deck, plan);
+  ASSERT_EQ(status(deck).state(), bp::MISSION_STATE_READY);
+  deck.tell(bp::RunMissionCtrl{});
+  ASSERT_TRUE(runUntilOver(deck, 20.0));
+  EXPECT_EQ(status(deck).state(), bp::MISSION_STATE_COMPLETED);
+  EXPECT_THAT(status(deck).completed_instruction_ids(), ElementsAre(1));
+  EXPECT_THAT(deck.notifications(), Contains(bp::NOTIFICATION_TYPE_INSTRUCTION_SKIPPED));
+  EXPECT_EQ(deck.drone.pictures(), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, Skipped,
+    testing::Values(
+        Impossible{"height_above_an_unknown_bottom",
+                   [](Plan& plan) { plan.depth(2.0F, bp::DEPTH_ZERO_REFERENCE_SEABED); }},
+        Impossible{"home_without_a_position",
+                   [](Plan& plan) { plan.add().mutable_go_to_home_command(); }},
+        Impossible{"altitude_mode_above_an_unknown_bottom",
+                   [](Plan& plan) {
+                     plan.add().mutable_control_mode_command()->set_control_mode_vertical(
+                         bp::CONTROL_MODE_VERTICAL_AUTO_ALTITUDE);
+                   }},
+        Impossible{"pictures_without_an_interval",
+                   [](Plan& plan) { plan.camera(bp::CAMERA_ACTION_TAKE_PHOTOS_TIME); }},
+        Impossible{"pictures_without_a_distance",
+                   [](Plan& plan) { plan.camera(bp::CAMERA_ACTION_TAKE_PHOTOS_DISTANCE, -1.0F); }},
+        Impossible{"no_camera_action",
+                   [](Plan& plan) { plan.camera(bp::CAMERA_ACTION_UNSPECIFIED); }}),
+    [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(Mission, SkipsASurveyWithoutLinesAndWithoutAnArea) {
+  Deck deck;
+  deck.connect();
+  deck.run(0.1);
+  Plan plan;
+  plan.add().mutable_survey_command()->set_lane_spacing(5.0F);
+  plan.wait(1.0F);
+  load(deck, plan);
+  deck.tell(bp::RunMissionCtrl{});
+  ASSERT_TRUE(runUntilOver(deck, 20.0));
+  EXPECT_THAT(status(deck).completed_instruction_ids(), ElementsAre(1));
+}
+
 TEST(Mission, PausesAfterAnInstructionWhereToldToObeyAutoContinue) {
   for (const bool obey : {false, true}) {
     BlueyeConfig config = quietDrone();

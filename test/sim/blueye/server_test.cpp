@@ -17,6 +17,7 @@
 #include <zmq.hpp>
 
 #include "deck.h"
+#include "test/link/no_more_files.h"
 
 namespace frontseat_driver::sim {
 namespace {
@@ -280,6 +281,61 @@ TEST_F(Server, IsBackOnTheSamePortsAfterAReboot) {
   const auto connected = again.ask<bp::ConnectClientRep>(bp::ConnectClientReq{});
   ASSERT_TRUE(connected);
   EXPECT_EQ(connected->client_id(), 1U);
+}
+
+TEST_F(Server, ComesBackFromARebootWhenFilesCanBeOpenedAgain) {
+  Client telemetry{context, ZMQ_SUB, server.telemetryPort()};
+  ASSERT_NE(waitFor(telemetry, "blueye.protocol.DepthTel"), "");
+  const auto online = [&] { return look<bool>([](BlueyeDrone& drone) { return drone.online(); }); };
+  {
+    server.post([](BlueyeDrone& drone) {
+      drone.faults().reboot_s = 0.2;
+      drone.reboot();
+    });
+    while (online()) {
+    }
+    link::testing::NoMoreFiles scarce;
+    while (!online()) scarce.takeAll();
+    scarce.takeAll();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(online());  // it lives, without its ports
+  }
+  Client again{context, ZMQ_SUB, server.telemetryPort()};
+  EXPECT_NE(waitFor(again, "blueye.protocol.DepthTel"), "");
+}
+
+TEST_F(Server, AnswersOverHttpWhenFilesCanBeOpenedAgain) {
+  boost::asio::io_context io;
+  boost::asio::ip::tcp::socket visitor{io};
+  visitor.open(boost::asio::ip::tcp::v4());
+  {
+    const link::testing::NoMoreFiles scarce;
+    visitor.connect({boost::asio::ip::make_address("127.0.0.1"), server.httpPort()});
+    look<int>([](BlueyeDrone&) { return 0; });
+  }
+  const std::string request = "GET /diagnostics/drone_info HTTP/1.1\r\nHost: x\r\n\r\n";
+  boost::asio::write(visitor, boost::asio::buffer(request));
+  std::string answer;
+  boost::system::error_code error;
+  boost::asio::read(visitor, boost::asio::dynamic_buffer(answer), error);
+  EXPECT_NE(answer.find("200 OK"), std::string::npos) << answer;
+}
+
+TEST(ServerPorts, WithoutThatOfHttpADroneIsOnlyWhereThatIsAllowed) {
+  const BlueyeServer first{quietDrone(), anyPorts()};
+  BlueyeServerConfig same = anyPorts();
+  same.http_port = first.httpPort();
+  const std::string where = "127.0.0.1:" + std::to_string(same.http_port);
+  same.http_optional = true;
+  const BlueyeServer second{quietDrone(), same};
+  EXPECT_NE(second.httpProblem().find(where), std::string::npos) << second.httpProblem();
+  EXPECT_EQ(second.httpPort(), 0);
+  same.http_optional = false;
+  try {
+    const BlueyeServer third{quietDrone(), same};
+    FAIL() << "both serve HTTP at " << where;
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string{error.what()}.find(where), std::string::npos) << error.what();
+  }
 }
 
 TEST(ServerPorts, TakenOnesAreNamed) {
