@@ -21,6 +21,8 @@ def percent(part):
 def main():
     with open(sys.argv[1]) as file:
         files = json.load(file)["files"]
+    if not files:
+        sys.exit("nothing was measured; gcovr.log in the same folder says why")
     lines = collections.defaultdict(lambda: [0, 0])
     branches = collections.defaultdict(lambda: [0, 0])
     for one in files:
