@@ -580,6 +580,7 @@ SteadyTime NmeaSession::nextSend() const {
 
 ControlState NmeaSession::control() const {
   ControlState state = permission_.state();
+  if (options_.listen_only) state.reason = kRecord;
   state.commanding = slot_.occupied();
   return state;
 }

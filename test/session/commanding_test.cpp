@@ -334,6 +334,7 @@ TEST_F(Commanding, ARecordTakesNoCommand) {
   NmeaOptions options = withDialect(Dialect::Kingfisher);
   options.listen_only = true;
   startKingfisher(options);
+  EXPECT_EQ(session_->control().reason, "a record is being played");
   EXPECT_EQ(command(vehicle::DriveCommand{0.5, 0.5}), "a record is being played");
   stop();
   pass(1s);
