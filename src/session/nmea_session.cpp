@@ -70,6 +70,13 @@ bool isLogName(const std::string& name) {
          });
 }
 
+// Of the others the driver checks every part before.
+std::string unsendable(const Request& request) {
+  if (const auto* raw = std::get_if<RawSentence>(&request)) return rawRefusal(raw->body);
+  const auto* abort = std::get_if<AbortRequest>(&request);
+  return abort ? lengthRefusal("reason", abort->reason) : "the sentence cannot be written";
+}
+
 std::string_view formatterOf(const Request& request) {
   if (std::holds_alternative<AbortRequest>(request)) {
     return protocol::bluefin::AbortMission::kFormatter;
@@ -318,7 +325,7 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
   std::string note;
   if (auto* abort = std::get_if<AbortRequest>(&request)) {
     const auto text = toSentenceText(abort->reason);
-    if (!text) return respond({false, textRefusal("reason")});
+    if (!text) return respond({false, textRefusal("reason", abort->reason)});
     abort->reason = text->text;
     if (text->lowered) note = "the reason was sent in lower case: it held a command's name";
   }
@@ -345,9 +352,7 @@ std::string NmeaSession::refusalOf(const Request& request, const Now& now) const
            "'; three capital letters such as NVG, or ALL, are accepted";
   }
   const auto sentence = sentenceFor(request, now).finish();
-  if (!sentence || sentence->size() > kMostBytesSent) {
-    return "the sentence cannot be sent: at most 200 bytes of printable ASCII are accepted";
-  }
+  if (!sentence || sentence->size() > kMostBytesSent) return unsendable(request);
   if (!connected_) return kNoConnection;
   if (options_.listen_only) return kRecord;
   const bool abort = std::holds_alternative<AbortRequest>(request);
@@ -386,7 +391,7 @@ void NmeaSession::remember(const LogSwitch& log) {
 
 std::string NmeaSession::setPayloadStatus(const Now& now, const vehicle::PayloadStatus& status) {
   const auto text = toSentenceText(status.message);
-  if (!text) return textRefusal("message");
+  if (!text) return textRefusal("message", status.message);
   protocol::bluefin::PayloadStatus sentence;
   sentence.sent_at = vehicle::timeOfDay(now.utc);
   sentence.ok = status.ok;
@@ -394,8 +399,7 @@ std::string NmeaSession::setPayloadStatus(const Now& now, const vehicle::Payload
   nmea::SentenceWriter writer = protocol::write(sentence);
   const auto line = writer.finish();
   if (!line || line->size() > kMostBytesSent) {
-    return "message has " + std::to_string(status.message.size()) +
-           " characters; a sentence takes 200 bytes in all";
+    return lengthRefusal("message", status.message);
   }
   payload_status_ = {status.ok, text->text};
   const bool speaks = dialect_ == Dialect::Sandshark && !options_.listen_only && !leaving_;

@@ -30,13 +30,14 @@ std::string inSeconds(std::chrono::nanoseconds duration) {
 
 std::string finalWords(const Acknowledgement& ack) {
   const std::string message{ack.message};
+  const std::string why = message.empty() ? "" : ": " + message;
   switch (ack.status) {
     case Acknowledgement::Status::Done:
       return message.empty() ? "done" : message;
     case Acknowledgement::Status::Failed:
-      return "the vehicle could not do it (acknowledgement 1): " + message;
+      return "the vehicle could not do it (acknowledgement 1)" + why;
     default:
-      return "the vehicle calls it invalid (acknowledgement 0): " + message;
+      return "the vehicle calls it invalid (acknowledgement 0)" + why;
   }
 }
 

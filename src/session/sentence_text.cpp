@@ -1,6 +1,7 @@
 #include "frontseat_driver/session/sentence_text.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace frontseat_driver::session {
 
@@ -10,6 +11,21 @@ constexpr std::string_view kCommands[] = {"RMB", "LOG", "ABT", "STS", "VER"};
 
 char lower(char letter) {
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+}
+
+/// One character, also where it cannot be printed.
+std::string inWords(std::string_view one) {
+  const auto byte = static_cast<unsigned char>(one.empty() ? 0 : one.front());
+  if (byte >= 0x20 && byte < 0x7F) return "'" + std::string{one} + "'";
+  char text[16];
+  std::snprintf(text, sizeof text, "byte 0x%02X", byte);
+  return text;
+}
+
+/// Without the `$` that may stand in front.
+std::string_view withoutStart(std::string_view body) {
+  if (!body.empty() && body.front() == '$') body.remove_prefix(1);
+  return body;
 }
 
 }  // namespace
@@ -26,15 +42,22 @@ std::optional<SentenceText> toSentenceText(std::string_view text) {
   return result;
 }
 
-std::string textRefusal(const std::string& field) {
-  return field +
-         " holds a character that would break the sentence; printable ASCII without comma, "
-         "asterisk "
-         "and $ is accepted";
+std::string textRefusal(const std::string& field, std::string_view text) {
+  std::size_t at = 0;
+  while (at < text.size() && nmea::isFieldText(text.substr(at, 1))) ++at;
+  return field + " holds " + inWords(text.substr(at, 1)) + " as character " +
+         std::to_string(at + 1) +
+         ", which would break the sentence; printable ASCII without comma, asterisk and $ is "
+         "accepted";
+}
+
+std::string lengthRefusal(const std::string& field, std::string_view text) {
+  return field + " has " + std::to_string(text.size()) + " characters; a sentence takes " +
+         std::to_string(kMostBytesSent) + " bytes in all";
 }
 
 nmea::SentenceWriter rawSentence(std::string_view body) {
-  if (!body.empty() && body.front() == '$') body.remove_prefix(1);
+  body = withoutStart(body);
   std::size_t comma = body.find(',');
   const std::string_view address = body.substr(0, comma);
   nmea::SentenceWriter writer{address.substr(0, 2),
@@ -45,6 +68,14 @@ nmea::SentenceWriter rawSentence(std::string_view body) {
     writer.text(body.substr(0, comma));
   }
   return writer;
+}
+
+std::string rawRefusal(std::string_view body) {
+  constexpr std::size_t kAround = 6;  // `$`, `*`, two digits, CR, LF
+  if (withoutStart(body).size() + kAround > kMostBytesSent) return lengthRefusal("sentence", body);
+  return "sentence is '" + std::string{body} +
+         "'; an address such as PYDIR and fields of printable ASCII without asterisk and $ are "
+         "accepted, and the checksum is added";
 }
 
 }  // namespace frontseat_driver::session

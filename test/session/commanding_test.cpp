@@ -551,13 +551,22 @@ TEST_F(Commanding, TextThatNamesACommandIsSentInLowerCase) {
 
 TEST_F(Commanding, TextThatBreaksTheSentenceIsRefused) {
   startSandshark();
-  for (const char* text : {"a,b", "a*b", "$BPABT", "a\r\nb", "\xC3\xA4"}) {
+  const std::pair<const char*, const char*> rows[] = {
+      {"a,b",
+       "reason holds ',' as character 2, which would break the sentence; printable ASCII "
+       "without comma, asterisk and $ is accepted"},
+      {"ab*", "reason holds '*' as character 3, which"},
+      {"$BPABT", "reason holds '$' as character 1, which"},
+      {"a\r\nb", "reason holds byte 0x0D as character 2, which"},
+      {"\xC3\xA4", "reason holds byte 0xC3 as character 1, which"}};
+  for (const auto& [text, refusal] : rows) {
     request(AbortRequest{text, true});
     EXPECT_FALSE(answers_.back().success);
-    EXPECT_THAT(answers_.back().message, StartsWith("reason holds a character"));
+    EXPECT_THAT(answers_.back().message, StartsWith(refusal));
   }
   request(AbortRequest{std::string(10000, 'x'), true});
-  EXPECT_THAT(answers_.back().message, HasSubstr("200 bytes"));
+  EXPECT_EQ(answers_.back().message,
+            "reason has 10000 characters; a sentence takes 200 bytes in all");
   EXPECT_THAT(out_.sent, IsEmpty());
 }
 
@@ -597,7 +606,7 @@ TEST_F(Commanding, RefusalsAreTheVehiclesWords) {
   request(heading(46.0));
   pass(60ms);
   acknowledge("RMB", 0);
-  EXPECT_EQ(answers_[1].message, "the vehicle calls it invalid (acknowledgement 0): ");
+  EXPECT_EQ(answers_[1].message, "the vehicle calls it invalid (acknowledgement 0)");
 }
 
 TEST_F(Commanding, AcknowledgementsAreMatchedByTimeNotByOrder) {
@@ -744,8 +753,20 @@ TEST_F(Commanding, RawSentencesGetTheirChecksum) {
   request(RawSentence{"$PYDIR,1,2"});
   EXPECT_THAT(out_.sentences(), ElementsAre("$PYDIR,1,2*55\r\n"));
   EXPECT_TRUE(answers_[0].success);
-  request(RawSentence{"PY*DIR"});
-  EXPECT_FALSE(answers_[1].success);
+  const std::pair<std::string, const char*> rows[] = {
+      {"PY*DIR",
+       "sentence is 'PY*DIR'; an address such as PYDIR and fields of printable ASCII without "
+       "asterisk and $ are accepted, and the checksum is added"},
+      {"$PYDIR,1,2*55", "sentence is '$PYDIR,1,2*55'; an address"},
+      {"", "sentence is ''; an address"},
+      {"PYDIR," + std::string(189, '1'), "sentence has 195 characters; a sentence takes 200 bytes"},
+      {"PYDIR,1\n", "sentence is 'PYDIR,1\n'; an address"}};
+  for (const auto& [text, refusal] : rows) {
+    request(RawSentence{text});
+    EXPECT_FALSE(answers_.back().success);
+    EXPECT_THAT(answers_.back().message, StartsWith(refusal));
+  }
+  EXPECT_THAT(out_.sent, SizeIs(1));
 }
 
 TEST_F(Commanding, ABoatKnowsNoAbort) {

@@ -23,11 +23,18 @@ struct SentenceText {
 /// sentence: a comma, an asterisk, `$`, control or non-ASCII characters.
 std::optional<SentenceText> toSentenceText(std::string_view text);
 
-/// What is wrong with a text that toSentenceText() refused, naming its field.
-std::string textRefusal(const std::string& field);
+/// What is wrong with a text that toSentenceText() refused: its field, the first character that
+/// would break the sentence and where it stands, counted from 1, and what is accepted.
+std::string textRefusal(const std::string& field, std::string_view text);
+
+/// What is wrong with a text that makes its sentence longer than kMostBytesSent.
+std::string lengthRefusal(const std::string& field, std::string_view text);
 
 /// A sentence as the user wrote it, "PYDIR,0,0", with or without `$`; the checksum is added. What
 /// is no sentence makes the writer invalid.
 nmea::SentenceWriter rawSentence(std::string_view body);
+
+/// What is wrong with a text that rawSentence() made no sentence of, or one that is too long.
+std::string rawRefusal(std::string_view body);
 
 }  // namespace frontseat_driver::session
