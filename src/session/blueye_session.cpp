@@ -18,7 +18,10 @@ using vehicle::Grant;
 using vehicle::Now;
 using State = vehicle::MissionStatus::State;
 
-constexpr auto kWatchdogPeriod = 1s;
+// A drone gives up on a client a little more than 1 s after the last one: the spare half is for a
+// computer that is busy, or a link that is full for a moment.
+constexpr auto kWatchdogPeriod = 500ms;
+constexpr auto kWatchdogRetry = 20ms;
 constexpr auto kPingTimeout = 1s;
 constexpr auto kRegisterAgain = 1s;
 constexpr auto kGoodbyeTimeout = 50ms;
@@ -745,8 +748,8 @@ void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
   const auto since = now.steady - registered_since_;
   message.mutable_connection_duration()->set_value(
       static_cast<std::int32_t>(std::chrono::duration_cast<std::chrono::seconds>(since).count()));
-  out.publish(now, message.GetTypeName(), message.SerializeAsString());
-  watchdog_due_ = now.steady + kWatchdogPeriod;
+  const bool sent = out.publish(now, message.GetTypeName(), message.SerializeAsString());
+  watchdog_due_ = now.steady + (sent ? kWatchdogPeriod : kWatchdogRetry);
 }
 
 vehicle::SteadyTime BlueyeSession::nextStep() const {

@@ -79,7 +79,7 @@ class BlueyeListener {
 /// An observer is never given control; takeControl() registers anew and asks whoever has it to go.
 /// The drone obeys every control message it hears, whoever sends it, so this session keeps silent
 /// by itself unless the drone says that this client is in control. Then, and only then, it sends
-/// the watchdog each second, and motion from the newest fresh command.
+/// the watchdog twice a second, and motion from the newest fresh command.
 ///
 /// A lost link, a rebooted drone and another client that takes over all end commanding and forget
 /// every command; what was registered is registered again, as an observer.

@@ -140,7 +140,7 @@ TEST(BlueyeSession, SendsZeroMotionAndTheClockWhenItGainsControl) {
   ASSERT_EQ(drone.controlsOf("PingerConfigurationCtrl").size(), 1u);
 }
 
-TEST(BlueyeSession, SendsTheWatchdogEachSecondWhileInControlOnly) {
+TEST(BlueyeSession, SendsTheWatchdogTwiceASecondWhileInControlOnly) {
   ScriptedDrone drone;
   drone.connect();
   drone.run(3s);
@@ -149,9 +149,9 @@ TEST(BlueyeSession, SendsTheWatchdogEachSecondWhileInControlOnly) {
   drone.controls.clear();
   drone.run(10s);
   const auto watchdogs = drone.controlsOf("WatchdogCtrl");
-  EXPECT_EQ(watchdogs.size(), 10u);
+  EXPECT_EQ(watchdogs.size(), 20u);
   for (std::size_t i = 1; i < watchdogs.size(); ++i) {
-    EXPECT_EQ(watchdogs[i].at - watchdogs[i - 1].at, 1s);
+    EXPECT_EQ(watchdogs[i].at - watchdogs[i - 1].at, 500ms);
   }
   pb::WatchdogCtrl last;
   ASSERT_TRUE(last.ParseFromString(watchdogs.back().payload));
@@ -163,6 +163,20 @@ TEST(BlueyeSession, SendsTheWatchdogEachSecondWhileInControlOnly) {
   drone.controls.clear();
   drone.run(5s);
   EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+}
+
+TEST(BlueyeSession, SendsTheWatchdogAgainThatTheLinkDidNotTake) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.controls.clear();
+  drone.link_takes = false;
+  drone.run(800ms);
+  EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+  drone.link_takes = true;
+  drone.run(20ms);
+  EXPECT_EQ(drone.controlsOf("WatchdogCtrl").size(), 1u);
+  drone.run(500ms);
+  EXPECT_EQ(drone.controlsOf("WatchdogCtrl").size(), 2u);
 }
 
 TEST(BlueyeSession, RepeatsTheNewestMotionWithAllAxesAndNothingElse) {

@@ -302,7 +302,7 @@ void Promises::sentWatchdog(std::string_view payload) {
   const auto id = parsed<pb::WatchdogCtrl>(payload).client_id();
   if (id != id_) breakPromise("a watchdog was sent for client " + std::to_string(id));
   if (leaving_) breakPromise("a watchdog was sent after goodbye");
-  watchdog_by_ = now() + 1s;
+  watchdog_by_ = now() + 500ms;
 }
 
 void Promises::sentHeld(std::size_t kind, const Wire& wire) {
@@ -357,7 +357,7 @@ void Promises::check() {
     breakPromise("control came that nobody asked for, or after the answer that it did not");
   }
   for (std::size_t kind = 0; kind < kHeld; ++kind) checkHeld(kind);
-  if (now() > excuse(watchdog_by_, 1s)) breakPromise("no watchdog for a second");
+  if (now() > excuse(watchdog_by_, kRetry)) breakPromise("no watchdog for half a second");
   checkPause();
   checkRegistration();
   checkCalls();
