@@ -12,6 +12,8 @@ namespace {
 
 constexpr int kSandsharkLeapSeconds = 0;
 constexpr int kKingfisherLeapSeconds = 18;
+// Its positions come through 32-bit floats, in steps of up to 0.85 m (field notes, NVG).
+constexpr double kSandsharkLeastStddev_m = 0.5;
 constexpr const char* kAltimeterFrame = "altimeter_link";
 
 geometry_msgs::TransformStamped rotation(const ros::Time& stamp, const std::string& parent,
@@ -229,8 +231,10 @@ ros::Time MessageBuilder::vehicleStamp(std::optional<vehicle::TimeOfDay> measure
 }
 
 double MessageBuilder::positionVariance(const vehicle::Navigation& navigation) const {
-  return variance(navigation.from_gps ? parameters_.position_stddev_gps_m
-                                      : parameters_.position_stddev_dead_reckoning_m);
+  const double given_m = navigation.from_gps ? parameters_.position_stddev_gps_m
+                                             : parameters_.position_stddev_dead_reckoning_m;
+  const bool coarse = dialect_ == protocol::Dialect::Sandshark;
+  return variance(coarse ? std::max(given_m, kSandsharkLeastStddev_m) : given_m);
 }
 
 bool MessageBuilder::headingsAreTrue() const {

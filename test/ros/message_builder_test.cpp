@@ -212,6 +212,29 @@ TEST_F(Builder, OdometryByDeadReckoningIsLessSure) {
   EXPECT_EQ(odom.pose.covariance[7], kDeadReckoningVariance);
 }
 
+// Its positions come through 32-bit floats, in steps of up to 0.85 m (field notes, NVG).
+TEST_F(Builder, ASandsharksPositionIsNoSurerThanItsSteps) {
+  struct Row {
+    std::optional<Dialect> dialect;
+    double gps_m, dead_reckoning_m;
+    double gps_m2, dead_reckoning_m2;
+  };
+  const Row rows[] = {{Dialect::Sandshark, 0.125, 0.25, 0.25, 0.25},
+                      {Dialect::Sandshark, 0.5, 0.75, 0.25, 0.5625},
+                      {Dialect::Kingfisher, 0.125, 0.25, 0.015625, 0.0625}};
+  for (const Row& row : rows) {
+    Parameters parameters = parametersFor(row.dialect);
+    parameters.position_stddev_gps_m = row.gps_m;
+    parameters.position_stddev_dead_reckoning_m = row.dead_reckoning_m;
+    MessageBuilder builder{parameters};
+    vehicle::Navigation navigation = navigationAt(kHarbor);
+    EXPECT_EQ(odometryOf(builder, navigation, at(0s)).pose.covariance[0], row.gps_m2);
+    EXPECT_EQ(builder.navFix()->position_covariance[4], row.gps_m2);
+    navigation.from_gps = false;
+    EXPECT_EQ(odometryOf(builder, navigation, at(1s)).pose.covariance[7], row.dead_reckoning_m2);
+  }
+}
+
 TEST_F(Builder, TwistIsUnknownWithoutVelocity) {
   const auto odom = odometryOf(boat_, navigationAt(kHarbor), at(0s));
   expectNear(odom.twist.twist.linear, 0.0, 0.0, 0.0);
