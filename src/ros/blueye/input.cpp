@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "blueye/service_requests.h"
 #include "blueye/topics.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
@@ -19,7 +20,6 @@ using session::BlueyeOutput;
 constexpr std::uint32_t kNewestOnly = 1;
 constexpr auto kWarnAtMostEvery = 5s;
 constexpr auto kPilotAtMostEvery = 1s;
-constexpr double kMultibeamLimit_deg = 28.0;  // of the servo, though the document says 30
 
 // How long a message waited in this process, other nodelets' callbacks before it.
 std::chrono::nanoseconds waited(const ros::Time& receipt) {
@@ -209,28 +209,11 @@ std::string Input::turn(const vehicle::Now& now, const sensor_msgs::JointState& 
 }
 
 Input::Checked Input::turn(const std::string& joint, double position_rad) const {
-  const Conventions& how = parameters_.publisher.navigation.conventions;
-  if (joint == "multibeam_tilt") {
-    const std::string refusal = outside("position", position_rad, -M_PI_2, M_PI_2);
-    if (!refusal.empty()) return refusal;
-    const double up_deg = (how.multibeam_tilt_up ? -1.0 : 1.0) * position_rad * 180.0 / M_PI;
-    pb::MultibeamServoCtrl message;
-    message.mutable_servo()->set_angle(
-        static_cast<float>(std::clamp(up_deg, -kMultibeamLimit_deg, kMultibeamLimit_deg)));
-    return ready(message);
-  }
-  int port = 0;
-  if (std::sscanf(joint.c_str(), "guest_port_%d_servo", &port) != 1 || port < 1 || port > 6) {
-    return "joint is '" + joint + "'; multibeam_tilt and guest_port_1_servo to 6 are accepted";
-  }
-  const std::string refusal =
-      outside("position", position_rad, how.servo_min_rad, how.servo_max_rad);
-  if (!refusal.empty()) return refusal;
-  const double share = (position_rad - how.servo_min_rad) / (how.servo_max_rad - how.servo_min_rad);
-  pb::GenericServoCtrl message;
-  message.mutable_servo()->set_value(static_cast<float>(share));
-  message.mutable_servo()->set_guest_port_number(static_cast<pb::GuestPortNumber>(port));
-  return ready(message);
+  const auto converted =
+      toJointControl(joint, position_rad, parameters_.publisher.navigation.conventions);
+  if (const auto* refusal = std::get_if<std::string>(&converted)) return *refusal;
+  if (const auto* servo = std::get_if<pb::GenericServoCtrl>(&converted)) return ready(*servo);
+  return ready(std::get<pb::MultibeamServoCtrl>(converted));
 }
 
 std::string Input::pilotAt(const vehicle::Now& now, const sensor_msgs::NavSatFix& fix,

@@ -693,7 +693,8 @@ std::optional<sensor_msgs::JointState> toServo(const pb::GenericServoTel& told,
                                                const Context& context) {
   if (!told.has_servo()) return std::nullopt;
   const Conventions& how = context.conventions;
-  const double share = told.servo().value();
+  // The vendor's library writes degrees where the document has 0 to 1.
+  const double share = std::clamp<double>(told.servo().value(), 0.0, 1.0);
   const std::string name =
       "guest_port_" + std::to_string(told.servo().guest_port_number()) + "_servo";
   return joint(name, how.servo_min_rad + share * (how.servo_max_rad - how.servo_min_rad), context);

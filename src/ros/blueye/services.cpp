@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "blueye/mission_json.h"
+#include "blueye/service_requests.h"
 #include "blueye/topics.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
@@ -393,24 +394,11 @@ void Services::addSettings() {
     });
   });
   advertise<ResetPosition>(topics::kResetPosition, [this](ResetPositionRequest& wanted) {
-    const bool in_range = wanted.heading_source >= 1 && wanted.heading_source <= 2 &&
-                          wanted.coordinate_source >= 1 && wanted.coordinate_source <= 3 &&
-                          wanted.heading_mode >= 1 && wanted.heading_mode <= 2 &&
-                          std::isfinite(wanted.yaw) && std::abs(wanted.latitude) <= 90.0 &&
-                          std::abs(wanted.longitude) <= 180.0;
-    if (!in_range) {
-      return Answer{
-          false, "a value is out of range; see rossrv show frontseat_driver/ResetPosition", {}, {}};
+    const ConvertedReset converted = toReset(wanted);
+    if (const auto* refusal = std::get_if<std::string>(&converted)) {
+      return Answer{false, *refusal, {}, {}};
     }
-    pb::ResetPositionCtrl message;
-    pb::ResetPositionSettings& settings = *message.mutable_settings();
-    settings.set_heading_source_during_reset(static_cast<pb::HeadingSource>(wanted.heading_source));
-    settings.set_manual_heading(static_cast<float>(headingOf_deg(wanted.yaw)));
-    settings.set_reset_coordinate_source(
-        static_cast<pb::ResetCoordinateSource>(wanted.coordinate_source));
-    settings.mutable_reset_coordinate()->set_latitude(wanted.latitude);
-    settings.mutable_reset_coordinate()->set_longitude(wanted.longitude);
-    settings.set_heading_mode(static_cast<pb::HeadingMode>(wanted.heading_mode));
+    const auto& message = std::get<pb::ResetPositionCtrl>(converted);
     constexpr int kJustReset_s = 3;
     const auto shows = [](std::string_view payload) {
       pb::PositionEstimateTel told;
@@ -422,24 +410,11 @@ void Services::addSettings() {
   });
   advertise<Record>(topics::kRecord, [this](RecordRequest& wanted) {
     return ask([this, wanted](const auto& now, auto& out, const Respond& respond) {
-      const auto& state = publisher_.recordState();
-      const bool keeps = wanted.main == RecordRequest::KEEP ||
-                         wanted.guestport == RecordRequest::KEEP ||
-                         wanted.multibeam == RecordRequest::KEEP;
-      if (!state && keeps) {
-        return respond(
-            {false, "the drone has not told yet what it records; nothing can be kept", {}, {}});
+      const ConvertedRecord converted = toRecord(wanted, publisher_.recordState());
+      if (const auto* refusal = std::get_if<std::string>(&converted)) {
+        return respond({false, *refusal, {}, {}});
       }
-      const auto on = [](std::uint8_t choice, bool present) {
-        return choice == RecordRequest::KEEP ? present : choice == RecordRequest::START;
-      };
-      const pb::RecordState present = state.value_or(pb::RecordState{});
-      pb::RecordCtrl message;
-      message.mutable_record_on()->set_main(on(wanted.main, present.main_is_recording()));
-      message.mutable_record_on()->set_guestport(
-          on(wanted.guestport, present.guestport_is_recording()));
-      message.mutable_record_on()->set_multibeam(
-          on(wanted.multibeam, present.multibeam_is_recording()));
+      const auto& message = std::get<pb::RecordCtrl>(converted);
       session::ConfirmedControls::Control record;
       record.type = message.GetTypeName();
       record.payload = message.SerializeAsString();

@@ -320,6 +320,34 @@ TEST_F(Frames, TheCamerasTiltUpIsANegativeTurnAboutPort) {
   EXPECT_NEAR(out->position[0], -M_PI / 6.0, kClose);
 }
 
+TEST_F(Frames, TheSonarsTiltTakesItsSignFromTheConvention) {
+  pb::MultibeamServoTel told;
+  told.mutable_servo()->set_angle(30.0F);
+  auto out = toMultibeamTilt(told, context());
+  EXPECT_THAT(out->name, ElementsAre("multibeam_tilt"));
+  EXPECT_NEAR(out->position[0], -M_PI / 6.0, kClose);
+  how_.multibeam_tilt_up = false;
+  out = toMultibeamTilt(told, context());
+  EXPECT_NEAR(out->position[0], M_PI / 6.0, kClose);
+}
+
+TEST_F(Frames, AServoStandsBetweenItsEndsWhateverIsTold) {
+  how_.servo_min_rad = -0.5;
+  how_.servo_max_rad = 1.5;
+  pb::GenericServoTel told;
+  told.mutable_servo()->set_guest_port_number(pb::GUEST_PORT_NUMBER_PORT_3);
+  const std::pair<float, double> rows[] = {
+      {0.0F, -0.5}, {0.25F, 0.0}, {1.0F, 1.5}, {-90.0F, -0.5}, {90.0F, 1.5}};
+  for (const auto& [value, position] : rows) {
+    told.mutable_servo()->set_value(value);
+    const auto out = toServo(told, context());
+    EXPECT_THAT(out->name, ElementsAre("guest_port_3_servo"));
+    EXPECT_NEAR(out->position[0], position, kClose) << value;
+  }
+  told.mutable_servo()->set_value(NAN);
+  EXPECT_FALSE(toServo(told, context()));
+}
+
 TEST_F(Frames, BearingsAreToldFromHundredthsByTheirSize) {
   pb::MultibeamPingTel told;
   auto& ping = *told.mutable_ping();
