@@ -103,6 +103,17 @@ class Launch(unittest.TestCase):
             for node in ("/simulator", "/frontseat"):
                 self.assertEqual(vehicle, parameters(config, node)["dialect"])
 
+    def test_a_simulator_takes_its_parameters_from_a_file(self):
+        for vehicle in ("sandshark", "kingfisher"):
+            name = "simulator_%s_field.yaml" % vehicle
+            config = load("simulator.launch", ["vehicle:=" + vehicle, "port:=29501", "config:=" +
+                                               os.path.join(package.ROOT, "config", name)])
+            given = parameters(config, "/simulator")
+            wanted = yaml.safe_load(package.read("config", name))
+            self.assertTrue(wanted["quirks"])
+            self.assertEqual(dict(given, port=29501), given)
+            self.assertEqual(dict(given, **wanted), given)
+
     def test_arguments_reach_the_driver(self):
         given = parameters(load("driver.launch", ["host:=10.0.0.5", "port:=29600",
                                                   "odom_frame:=a/odom", "base_frame:=a/base",
