@@ -54,6 +54,17 @@ class Documentation(unittest.TestCase):
         for path in re.findall(r"`([a-z_/]+/[a-z_]+\.(?:cpp|py))`", failures):
             self.assertTrue(os.path.exists(os.path.join(package.ROOT, "test", path)), path)
 
+    def test_every_planted_bug_still_has_its_place(self):
+        """A patch whose place has changed would stop `make plant`."""
+        patches = package.files("test/ros/simulation/plants", ".patch")
+        self.assertGreater(len(patches), 20)
+        for path in patches:
+            for target, hunks in re.findall(r"^\+\+\+ b/(\S+)\n(.*?)(?=^diff |\Z)",
+                                            package.read(path), re.S | re.M):
+                for hunk in re.split(r"^@@.*\n", hunks, flags=re.M)[1:]:
+                    before = [line[1:] for line in hunk.splitlines() if line[:1] in (" ", "-")]
+                    self.assertIn("\n".join(before), package.read(target), path)
+
     def test_readme_shows_both_commands(self):
         for command in ("make demo", "make test"):
             self.assertIn(command, package.read("README.md"))
