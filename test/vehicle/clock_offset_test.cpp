@@ -7,6 +7,7 @@
 #include <random>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "frontseat_driver/vehicle/date_resolution.h"
@@ -293,6 +294,147 @@ TEST(ClockOffset, StampsNeverGoBackIn24HoursAcrossMidnight) {
   }
   EXPECT_EQ(back, 0u);
   EXPECT_EQ(estimate.state().steps, 0u);
+}
+
+/// A link that always takes as long, and a vehicle whose clock is exactly what is set here: what
+/// the limits of the estimate are can be seen one by one.
+struct Exact {
+  ClockOffset estimate;
+  UtcTime now = kStart;
+  nanoseconds late{};  ///< of the next samples, against the first ones
+  double drift_ppm = 0.0;
+
+  void take() {
+    const auto elapsed_ns = static_cast<double>((now - kStart).count());
+    const nanoseconds drifted{std::llround(elapsed_ns * drift_ppm * 1e-6)};
+    estimate.take(timeOfDay(now - late + drifted), now);
+  }
+  void run(nanoseconds time, nanoseconds period = 50ms) {
+    for (const UtcTime end = now + time; now < end; take()) now += period;
+  }
+  std::uint64_t steps() const { return estimate.state().steps; }
+  /// How late the estimate takes the first samples to be.
+  nanoseconds learned() const { return *estimate.toHost(timeOfDay(now), now) - now; }
+};
+
+struct LateStep {
+  const char* name;
+  std::chrono::milliseconds step;
+  std::chrono::milliseconds not_before;
+  std::chrono::milliseconds not_after;
+};
+
+class LateSteps : public testing::TestWithParam<LateStep> {};
+
+TEST_P(LateSteps, AreBelievedWhenTheirTimeHasCome) {
+  Exact exact;
+  exact.run(60s);
+  exact.late = GetParam().step;
+  exact.run(GetParam().not_before, 80ms);
+  EXPECT_EQ(exact.steps(), 0u);
+  EXPECT_EQ(exact.learned(), 0ms);
+  exact.run(GetParam().not_after - GetParam().not_before, 80ms);
+  EXPECT_EQ(exact.steps(), 1u);
+  EXPECT_EQ(exact.learned(), GetParam().step);
+}
+
+const LateStep kLateSteps[] = {{"big", 3000ms, 800ms, 1300ms},
+                               {"just_big", 260ms, 800ms, 1300ms},
+                               {"small", 240ms, 1700ms, 2500ms},
+                               {"smallest", 30ms, 1700ms, 2500ms}};
+
+INSTANTIATE_TEST_SUITE_P(Table, LateSteps, testing::ValuesIn(kLateSteps),
+                         [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(ClockOffset, WhatIsLateByLittleIsNoStep) {
+  Exact exact;
+  exact.run(30s);
+  exact.late = 15ms;
+  exact.run(20s);
+  EXPECT_EQ(exact.steps(), 0u);
+  EXPECT_EQ(exact.learned(), 0ms);
+}
+
+TEST(ClockOffset, EarlySamplesAreAStepByHowLongTheLinkIsKnown) {
+  struct Early {
+    std::chrono::seconds known;
+    std::chrono::milliseconds early;
+    std::uint64_t steps;
+  };
+  for (const Early& row : {Early{5s, 200ms, 0}, Early{5s, 300ms, 1}, Early{8s, 30ms, 0},
+                           Early{15s, 15ms, 0}, Early{15s, 30ms, 1}}) {
+    Exact exact;
+    exact.run(row.known);
+    exact.late = -row.early;
+    exact.run(50ms);
+    EXPECT_EQ(exact.steps(), row.steps) << row.known.count() << " s " << row.early.count() << " ms";
+    EXPECT_EQ(exact.learned(), -row.early);
+  }
+}
+
+/// Whether samples that are late by three seconds, each second one by `apart` more, are a step.
+bool isStep(nanoseconds apart) {
+  Exact exact;
+  exact.run(30s);
+  for (int i = 0; i < 100; ++i) {
+    exact.late = 3s + (i % 2 == 0 ? 0ns : apart);
+    exact.run(50ms);
+  }
+  return exact.steps() > 0;
+}
+
+TEST(ClockOffset, AStepShowsAsSamplesThatLieTogether) {
+  EXPECT_TRUE(isStep(40ms));
+  EXPECT_FALSE(isStep(80ms));
+}
+
+TEST(ClockOffset, TheEarliestSampleCountsForAMinute) {
+  Exact exact;
+  exact.run(50ms);
+  exact.late = 100ms;
+  exact.run(55s);
+  EXPECT_LE(exact.learned(), 28ms);  // which may be the most drift
+  exact.run(10s);
+  EXPECT_EQ(exact.learned(), 100ms);
+}
+
+TEST(ClockOffset, BeginsAnewAfterAMinuteWithoutSamples) {
+  for (const auto& [gap, learned] : {std::pair{50s, 0ms}, std::pair{70s, 15ms}}) {
+    Exact exact;
+    exact.run(5s);
+    exact.now += gap;
+    exact.late = 15ms;
+    exact.run(50ms);
+    EXPECT_EQ(exact.learned(), learned) << gap.count() << " s";
+    EXPECT_EQ(exact.steps(), 0u);
+  }
+}
+
+TEST(ClockOffset, LearnsTheDriftInTenSecondsAndKnowsItsLimit) {
+  struct Drifting {
+    double vehicle_ppm;
+    double learned_ppm;
+  };
+  for (const Drifting& row : {Drifting{400.0, -400.0}, Drifting{-400.0, 400.0},
+                              Drifting{600.0, -500.0}, Drifting{-600.0, 500.0}}) {
+    Exact exact;
+    exact.drift_ppm = row.vehicle_ppm;
+    exact.run(8s);
+    EXPECT_EQ(exact.estimate.state().drift_ppm, 0.0);
+    exact.run(5s);
+    EXPECT_NEAR(exact.estimate.state().drift_ppm, row.learned_ppm, 1.0);
+  }
+}
+
+TEST(ClockOffset, TellsTheMeanDelayBeyondTheLeast) {
+  Exact exact;
+  exact.run(10s);
+  EXPECT_EQ(exact.estimate.state().jitter, 0ns);
+  for (int i = 0; i < 64; ++i) {  // of 5 ms in the mean; 1 - 1 / e of it is learned
+    exact.late = i % 2 == 0 ? 10ms : 0ms;
+    exact.run(50ms);
+  }
+  EXPECT_NEAR(milliseconds(exact.estimate.state().jitter), 3.16, 0.1);
 }
 
 TEST(ClockOffset, AClockThatStandsStillGivesItsOwnTime) {
