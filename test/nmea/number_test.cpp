@@ -96,12 +96,16 @@ TEST(Number, OfAnythingElseIsBadValue) {
        {"x",     "1x",   "x1",  "1.2.3",   "1..2", ".",     "-",   "+",    "--1",
         "+-1",   "1e",   "1e+", "e5",      ".e5",  "1 2",   "- 1", "0x10", "1e5.0",
         "1'000", "nanx", "na",  "infinit", "nan1", "1_000", "٣"}) {
-    const std::string fields = std::string{text} + ",1";
+    // Also where there is enough before it to be read in one piece.
+    const std::string fields = std::string{text} + ",1234567890," + text + ",1";
     FieldReader in = reader(fields);
     EXPECT_EQ(in.number(), std::nullopt) << text;
     EXPECT_EQ(in.faults().count, 1) << text;
     EXPECT_EQ(in.faults().first.fault, Fault::BadValue) << text;
     EXPECT_EQ(in.faults().first.field, 1) << text;
+    EXPECT_EQ(in.number(), 1234567890.0) << text;
+    EXPECT_EQ(in.number(), std::nullopt) << text;
+    EXPECT_EQ(in.faults().count, 2) << text;
     EXPECT_EQ(in.number(), 1.0) << text;
   }
 }

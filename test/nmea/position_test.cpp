@@ -56,6 +56,19 @@ TEST_P(Positions, AreReadToTheLastBit) {
   EXPECT_EQ(in.remaining(), 0);
 }
 
+// Where there is enough before and after them they are read in one piece.
+TEST_P(Positions, AreTheSameAmongOtherFields) {
+  const std::string fields = std::string{"1234567890,"} + GetParam().text + ",1234567890";
+  FieldReader in = reader(fields);
+  EXPECT_EQ(in.number(), 1234567890.0);
+  const auto position = in.latLon(GetParam().split);
+  ASSERT_TRUE(position);
+  EXPECT_EQ(position->latitude_deg, GetParam().latitude);
+  EXPECT_EQ(position->longitude_deg, GetParam().longitude);
+  EXPECT_EQ(in.number(), 1234567890.0);
+  EXPECT_EQ(in.faults().count, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Table, Positions, testing::ValuesIn(kPositions),
                          [](const auto& row) { return std::string{row.param.name}; });
 
