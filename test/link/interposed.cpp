@@ -18,6 +18,7 @@ std::condition_variable released;
 bool hanging = true;
 std::atomic<bool> to_itself{false};
 std::atomic<int> connect_error{0};
+std::atomic<int> socket_error{0};
 
 template <class Function>
 Function* original(const char* name) {
@@ -85,6 +86,13 @@ extern "C" int connect(int fd, const sockaddr* address, socklen_t size) {
   return kSystem(fd, address, size);
 }
 
+extern "C" int socket(int domain, int type, int protocol) {
+  static const auto kSystem = original<int(int, int, int)>("socket");
+  if (socket_error == 0) return kSystem(domain, type, protocol);
+  errno = socket_error;
+  return -1;
+}
+
 namespace frontseat_driver::link::testing {
 
 void hangNames() {
@@ -101,5 +109,7 @@ void releaseHangingNames() {
 void connectToItself(bool on) { to_itself = on; }
 
 void failConnects(int error) { connect_error = error; }
+
+void failSockets(int error) { socket_error = error; }
 
 }  // namespace frontseat_driver::link::testing

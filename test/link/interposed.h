@@ -23,4 +23,7 @@ void connectToItself(bool on);
 /// From now on the kernel gives every connection up at once with this error; 0 ends that.
 void failConnects(int error);
 
+/// From now on no socket can be opened, for this reason; 0 ends that.
+void failSockets(int error);
+
 }  // namespace frontseat_driver::link::testing
