@@ -22,6 +22,9 @@ namespace {
 constexpr std::chrono::seconds kTick{1};
 // For the session's last words; with the orderly close after them within the 100 ms of stop().
 constexpr std::chrono::milliseconds kLastWords{40};
+// Work that took longer, held up by a log line to a terminal that takes none perhaps, must not make
+// what has grown stale meanwhile look fresh.
+constexpr std::chrono::milliseconds kHeldUp{100};
 
 std::string_view withoutLineEnd(std::string_view sentence) {
   const auto last = sentence.find_last_not_of("\r\n");
@@ -141,8 +144,9 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
 
   // Time.
 
-  void step(const Now& now) {
-    session_.step(now, *this);
+  void step(const Now& begun) {
+    const bool held_up = std::chrono::steady_clock::now() > begun.steady + kHeldUp;
+    session_.step(held_up ? clock_() : begun, *this);
     if (leaving_ && (session_.hasLeft() || !client_.connected())) return finishLeaving();
     scheduleStep();
   }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 
+#include <functional>
 #include <future>
 #include <string>
 #include <utility>
@@ -167,6 +168,38 @@ TEST(Driver, OneClockReadingPerRead) {
   using std::chrono::nanoseconds;
   times.resize(3);  // up to the step after the read
   EXPECT_EQ(times, (std::vector<vehicle::UtcTime>{nanoseconds(1), nanoseconds(2), nanoseconds(2)}));
+}
+
+/// How old the time of the step was that followed work which took a while.
+milliseconds ageOfTheStepAfter(const std::function<void(Rig&, Vehicle&)>& begin_work) {
+  Vehicle vehicle;
+  Rig rig("127.0.0.1", vehicle.port());
+  rig.driver.start();
+  EXPECT_TRUE(waitUntil([&] { return vehicle.clients() == 1 && rig.listener.connects == 1; }));
+  std::promise<steady_clock::duration> age;
+  bool worked = false;
+  rig.session.on_receive = [&](const Now& now, auto, auto&) {
+    while (steady_clock::now() < now.steady + milliseconds(300)) {
+    }
+    worked = true;
+  };
+  rig.session.on_step = [&](const Now& now, auto&) {
+    if (std::exchange(worked, false)) age.set_value(steady_clock::now() - now.steady);
+  };
+  begin_work(rig, vehicle);
+  const auto found = age.get_future().get();
+  rig.driver.stop();
+  return std::chrono::duration_cast<milliseconds>(found);
+}
+
+TEST(Driver, WhatHeldItUpMakesNothingStaleLookFresh) {
+  EXPECT_LT(ageOfTheStepAfter([](Rig&, Vehicle& vehicle) { vehicle.send("$"); }),
+            milliseconds(300));
+  EXPECT_LT(ageOfTheStepAfter([](Rig& rig, Vehicle&) {
+              rig.driver.post(
+                  [&](const Now& now) { rig.session.receive(now, "$", rig.driver.output()); });
+            }),
+            milliseconds(300));
 }
 
 TEST(Driver, StepsWhenAskedAndNeverEarlier) {

@@ -33,8 +33,9 @@ class Listener {
 /// Runs one link and one session on one thread of its own. Nothing else touches the session.
 class Driver {
  public:
-  /// Reads the three clocks; called once per read and per step. `steady` must be the time of
-  /// std::chrono::steady_clock, which the driver's timers run on.
+  /// Reads the three clocks; called once per read and per step, and again before the step if the
+  /// work before it took longer than 0.1 s. `steady` must be the time of std::chrono::steady_clock,
+  /// which the driver's timers run on.
   using Clock = std::function<vehicle::Now()>;
 
   /// Session and listener must outlive the driver.
