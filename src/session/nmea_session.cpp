@@ -43,10 +43,12 @@ std::vector<LogSwitch> firstLogRequests(const NmeaOptions& options) {
   return requests;
 }
 
+// A day at most: what is slower still does not fit into nanoseconds.
 std::chrono::nanoseconds periodOf(double rate_hz) {
-  if (rate_hz <= 0.0) return std::chrono::nanoseconds::max();
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double>{1.0 / rate_hz});
+  using Seconds = std::chrono::duration<double>;
+  constexpr Seconds kDay{86400.0};
+  const Seconds period = std::min(Seconds{1.0 / rate_hz}, kDay);
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(period);
 }
 
 vehicle::Event toEvent(const ControlState& state) {
@@ -180,11 +182,12 @@ bool NmeaSession::take(const Now& now, const nmea::Sentence& sentence, Output& o
   // A GPS receiver's sentences go by its own clock.
   const auto sent_at = spoken ? sentAt(reading->message) : std::nullopt;
   if (sent_at) out.event(now, vehicle::ClockSample{*sent_at});
-  takeMessage(now, reading->message, out);
+  takeMessage(now, *reading, out);
   return true;
 }
 
-void NmeaSession::takeMessage(const Now& now, const protocol::Message& message, Output& out) {
+void NmeaSession::takeMessage(const Now& now, const protocol::Reading& reading, Output& out) {
+  const protocol::Message& message = reading.message;
   auto event = toVehicle(message);
   if (event) {
     if (auto* ack = std::get_if<Acknowledgement>(&*event)) takeAcknowledgement(now, *ack);
@@ -192,6 +195,8 @@ void NmeaSession::takeMessage(const Now& now, const protocol::Message& message, 
     out.event(now, *event);
   }
   if (const auto* control = std::get_if<protocol::bluefin::BackseatControl>(&message)) {
+    const bool unreadable = !control->backseat_in_control && reading.faults.count > 0;
+    if (unreadable) permission_.takeUnreadableControl();
     permission_.take(*control);
     permissionChanged(now, out);
   } else if (const auto* mission = std::get_if<protocol::bluefin::MissionStatus>(&message)) {
@@ -289,7 +294,7 @@ std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
 }
 
 void NmeaSession::stop(const Now& now, Output& out) {
-  requests_.failUnsentBehaviors("commanding was stopped before it could be sent");
+  requests_.failUnsentCommands("commanding was stopped before it could be sent");
   permitted_since_ = now.steady;
   endCommanding(now, out);
   zero_due_ = connected_ && isBoat() && !options_.listen_only && !hasLeft();
@@ -325,7 +330,9 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
   std::string note;
   if (auto* abort = std::get_if<AbortRequest>(&request)) {
     const auto text = toSentenceText(abort->reason);
-    if (!text) return respond({false, textRefusal("reason", abort->reason)});
+    if (!text) {
+      return respond({false, refuseAbort(now, textRefusal("reason", abort->reason), out)});
+    }
     abort->reason = text->text;
     if (text->lowered) note = "the reason was sent in lower case: it held a command's name";
   }
@@ -333,16 +340,28 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
   const auto* log = std::get_if<LogSwitch>(&request);
   const bool remembered = log && isLogName(log->sentence) && !isBoat();
   if (remembered) remember(*log);
+  const bool is_abort = std::holds_alternative<AbortRequest>(request);
+  if (!refusal.empty() && is_abort) return respond({false, refuseAbort(now, refusal, out)});
   if (!refusal.empty()) {
     const bool later = remembered && !connected_;
     return respond({false, later ? refusal + "; it will be asked for when there is" : refusal});
   }
-  if (std::holds_alternative<AbortRequest>(request)) {
-    requests_.failUnsentBehaviors("the mission was aborted before it could be sent");
+  if (is_abort) {
+    requests_.failUnsentCommands("the mission was aborted before it could be sent");
     permitted_since_ = now.steady;
     endCommanding(now, out);
   }
   requests_.add(std::move(request), std::move(note), std::move(respond), now.steady);
+}
+
+// A boat has no mission to abort, but who asks for it does not want it to go on.
+std::string NmeaSession::refuseAbort(const Now& now, const std::string& refusal, Output& out) {
+  if (!isBoat()) return refusal;
+  requests_.failUnsentCommands("an abort came before it could be sent");
+  permitted_since_ = now.steady;
+  if (!slot_.occupied()) return refusal;
+  endCommanding(now, out);
+  return refusal + "; commanding has ended";
 }
 
 std::string NmeaSession::refusalOf(const Request& request, const Now& now) const {

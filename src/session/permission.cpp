@@ -10,6 +10,7 @@ Permission::Permission(ControlHook hook, bool commands_enabled)
 void Permission::connected() {
   connected_ = true;
   word_ = Grant::Unknown;
+  unreadable_ = false;
 }
 
 void Permission::disconnected() {
@@ -23,6 +24,13 @@ void Permission::setDialect(protocol::Dialect dialect) { dialect_ = dialect; }
 void Permission::take(const protocol::bluefin::BackseatControl& control) {
   if (hook_ != ControlHook::Ctl || !control.backseat_in_control) return;
   word_ = *control.backseat_in_control ? Grant::Granted : Grant::Denied;
+  unreadable_ = false;
+}
+
+void Permission::takeUnreadableControl() {
+  if (hook_ != ControlHook::Ctl) return;
+  word_ = Grant::Unknown;
+  unreadable_ = true;
 }
 
 void Permission::take(vehicle::MissionStatus::State mission) {
@@ -49,6 +57,8 @@ ControlState Permission::state() const {
     state.reason = "the vehicle has not shown its dialect yet; parameter dialect sets it";
   } else if (!commands_enabled_) {
     state.reason = "the command gate is closed; service enable_commands opens it";
+  } else if (state.grant == Grant::Unknown && unreadable_) {
+    state.reason = "the vehicle's last BFCTL cannot be read";
   } else if (state.grant == Grant::Unknown) {
     state.reason = by_mission ? "the vehicle has sent no BFMIS since the connection was made"
                               : "the vehicle has sent no BFCTL since the connection was made";

@@ -106,12 +106,21 @@ void RequestQueue::failAll(const std::string& reason) {
   while (!open_.empty()) answer(open_.begin(), false, reason);
 }
 
-void RequestQueue::failUnsentBehaviors(const std::string& reason) {
+template <class... Kinds>
+void RequestQueue::failUnsent(const std::string& reason) {
   for (auto open = open_.begin(); open != open_.end();) {
     const auto current = open++;
-    const bool behavior = std::holds_alternative<vehicle::BehaviorCommand>(current->request);
-    if (behavior && !current->sent) answer(current, false, reason);
+    const bool is_one = (std::holds_alternative<Kinds>(current->request) || ...);
+    if (is_one && !current->sent) answer(current, false, reason);
   }
+}
+
+void RequestQueue::failUnsentBehaviors(const std::string& reason) {
+  failUnsent<vehicle::BehaviorCommand>(reason);
+}
+
+void RequestQueue::failUnsentCommands(const std::string& reason) {
+  failUnsent<vehicle::BehaviorCommand, RawSentence>(reason);
 }
 
 void RequestQueue::answer(Requests::iterator open, bool success, const std::string& message) {

@@ -288,6 +288,20 @@ TEST_F(Commanding, TakingControlBackEndsTheCommand) {
   EXPECT_THAT(out_.sent, IsEmpty());
 }
 
+TEST_F(Commanding, AWordOnControlThatCannotBeReadEndsTheCommand) {
+  for (const char* word : {"2", "-1", "0.5", "no"}) {
+    startSandshark();
+    command(heading(90.0));
+    out_.sent.clear();
+    hear(std::string{"BFCTL,120001.000,"} + word);
+    EXPECT_EQ(command(heading(90.0)), "the vehicle's last BFCTL cannot be read") << word;
+    pass(10s);
+    EXPECT_THAT(out_.sent, IsEmpty()) << word;
+    hear("BFCTL,120002.000,1");
+    EXPECT_EQ(command(heading(90.0)), "") << word;
+  }
+}
+
 TEST_F(Commanding, ReconnectForgetsTheCommand) {
   startKingfisher();
   command(vehicle::DriveCommand{0.5, 0.5});
@@ -774,6 +788,45 @@ TEST_F(Commanding, ABoatKnowsNoAbort) {
   request(AbortRequest{"leak", true});
   EXPECT_EQ(answers_[0].message, "it is for a sandshark, and the vehicle is a kingfisher");
   EXPECT_THAT(out_.sent, IsEmpty());
+}
+
+TEST_F(Commanding, AnAbortEndsCommandingABoat) {
+  for (const char* reason : {"leak", "leak, so stop"}) {
+    answers_.clear();
+    startKingfisher();
+    const SteadyTime before = now().steady;
+    command(vehicle::DriveCommand{0.5, 0.5});
+    out_.sent.clear();
+    pass(30ms);
+    request(AbortRequest{reason, true});
+    EXPECT_FALSE(answers_[0].success);
+    EXPECT_THAT(answers_[0].message, HasSubstr("; commanding has ended"));
+    EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, before, out_),
+              "it is from before the last stop, abort or permission");
+    pass(10s);
+    EXPECT_THAT(out_.sentences(), ElementsAre(kZero)) << reason;
+  }
+}
+
+TEST_F(Commanding, ARawSentenceThatWaitsIsNotSentAfterAStop) {
+  startKingfisher();
+  request(RawSentence{"PYDIR,100,100"});
+  request(RawSentence{"PYDIR,90,90"});  // held back by the spacing
+  stop();
+  pass(10s);
+  EXPECT_THAT(out_.sentences(), ElementsAre(StartsWith("$PYDIR,100,100*"), kZero));
+  ASSERT_THAT(answers_, SizeIs(2));
+  EXPECT_FALSE(answers_[1].success);
+}
+
+TEST_F(Commanding, AHeartbeatOfAnAgeIsNoFlood) {
+  for (const double rate_hz : {1e-3, 1e-12, 1e-300}) {
+    NmeaOptions options = withDialect(Dialect::Sandshark);
+    options.status_rate_hz = rate_hz;
+    startSandshark(options);
+    pass(10min);
+    EXPECT_THAT(out_.sent, IsEmpty()) << rate_hz;
+  }
 }
 
 TEST_F(Commanding, PayloadStatusBeatsAtItsRate) {

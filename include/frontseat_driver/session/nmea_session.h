@@ -105,7 +105,8 @@ class NmeaSession : public Session {
   void setCommandsEnabled(const Now& now, bool enabled, Output& out);
 
   /// Sends the request as soon as spacing allows and answers once, within ack_timeout; from inside
-  /// this call if it cannot be sent. The respond function must not call the session.
+  /// this call if it cannot be sent. The respond function must not call the session. An abort ends
+  /// commanding; a boat's also if it cannot be sent, since to a boat none can.
   void request(const Now& now, Request request, Respond respond, Output& out);
 
   /// What BPSTS says from now on, at once and at status_rate. Returns why it was refused, or
@@ -152,7 +153,7 @@ class NmeaSession : public Session {
  private:
   void hear(const Now& now, std::string_view line, Output& out);
   bool take(const Now& now, const nmea::Sentence& sentence, Output& out);  ///< true: decoded
-  void takeMessage(const Now& now, const protocol::Message& message, Output& out);
+  void takeMessage(const Now& now, const protocol::Reading& reading, Output& out);
   void takeAcknowledgement(const Now& now, vehicle::Acknowledgement& ack);
   void takeMotion(const Now& now, const vehicle::Event& event);
   void count(const nmea::Failure& failure);
@@ -163,6 +164,7 @@ class NmeaSession : public Session {
   std::string refusalOf(const Now& now, const vehicle::Command& command) const;
   std::string refusalOf(const Now& now, SteadyTime received) const;
   std::string refusalOf(const Request& request, const Now& now) const;
+  std::string refuseAbort(const Now& now, const std::string& refusal, Output& out);
   void remember(const LogSwitch& log);
   PresentState present(const Now& now) const;
 

@@ -42,6 +42,8 @@ class Permission {
   void setCommandsEnabled(bool enabled) { commands_enabled_ = enabled; }
 
   void take(const protocol::bluefin::BackseatControl& control);
+  /// It sent a BFCTL whose word cannot be read: what it said before holds no more.
+  void takeUnreadableControl();
   void take(vehicle::MissionStatus::State mission);
 
   bool granted() const { return state().reason.empty(); }
@@ -55,6 +57,7 @@ class Permission {
   bool connected_ = false;
   std::optional<protocol::Dialect> dialect_;
   vehicle::Grant word_ = vehicle::Grant::Unknown;  ///< the vehicle's, on this connection
+  bool unreadable_ = false;                        ///< that is why it is unknown
 };
 
 }  // namespace frontseat_driver::session

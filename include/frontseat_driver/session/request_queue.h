@@ -92,6 +92,9 @@ class RequestQueue {
   /// Commanding has ended: a behavior that has not gone out yet must not go out after it.
   void failUnsentBehaviors(const std::string& reason);
 
+  /// As that, and raw sentences too, which may be commands: everything was to end.
+  void failUnsentCommands(const std::string& reason);
+
   SteadyTime nextDue() const;
   SteadyTime nextDeadline() const;
 
@@ -101,6 +104,8 @@ class RequestQueue {
   const Open* due(SteadyTime now, bool abort) const;
   Requests::iterator find(Id id);
   void answer(Requests::iterator open, bool success, const std::string& message);
+  template <class... Kinds>
+  void failUnsent(const std::string& reason);
 
   const std::chrono::nanoseconds ack_timeout_;
   Id last_id_ = 0;
