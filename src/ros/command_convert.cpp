@@ -18,6 +18,7 @@ constexpr double kMostDepth_m = 6000.0;
 constexpr double kMostRpm = 10000.0;
 constexpr double kMostSpeed_m_s = 10.0;
 constexpr double kMostYawRate_rad_s = M_PI;
+constexpr double kMostYaw_rad = 1e6;  // more is no angle that somebody meant
 
 double degrees(double angle_rad) { return angle_rad * 180.0 / M_PI; }
 
@@ -44,6 +45,7 @@ class Check {
   /// From the vehicle's north, [0, 360).
   double heading_deg(const std::string& field, double yaw_rad, NorthOffset north_offset_deg) {
     finite(field.c_str(), yaw_rad);
+    within(field.c_str(), yaw_rad, -kMostYaw_rad, kMostYaw_rad);
     if (!north_offset_deg) {
       refuse(field + " is a heading, and no position of the vehicle is known yet to tell how its " +
              "grid north lies");
@@ -138,13 +140,13 @@ Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg) {
 std::string tooOld(const Behavior& behavior, const ros::Time& now,
                    std::chrono::nanoseconds max_command_age) {
   if (behavior.header.stamp.isZero()) return {};
-  const double age_s = (now - behavior.header.stamp).toSec();
+  const std::chrono::duration<double> age = timeFrom(behavior.header.stamp, now);
   const double limit_s = std::chrono::duration<double>(max_command_age).count();
-  if (age_s <= limit_s) return {};
+  if (std::abs(age.count()) <= limit_s) return {};
   char text[160];
-  std::snprintf(text, sizeof text,
-                "header.stamp is %.3f s old; at most %.3f s (max_command_age) is accepted", age_s,
-                limit_s);
+  std::snprintf(
+      text, sizeof text, "header.stamp is %.3f s %s; at most %.3f s (max_command_age) is accepted",
+      std::abs(age.count()), age.count() > 0.0 ? "old" : "ahead of this computer's clock", limit_s);
   return text;
 }
 

@@ -27,7 +27,8 @@ using NorthOffset = std::optional<double>;
 /// group is nautical on both sides.
 Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg);
 
-/// Why a stamped command is too old to be sent; empty if it is not, or carries no stamp.
+/// Why a stamped command is too old to be sent; empty if it is not, or carries no stamp. One from a
+/// clock that is as far ahead may be of any age.
 std::string tooOld(const Behavior& behavior, const ros::Time& now,
                    std::chrono::nanoseconds max_command_age);
 

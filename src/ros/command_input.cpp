@@ -19,8 +19,7 @@ constexpr std::uint32_t kNewestOnly = 1;
 
 // How long a message waited in this process, other nodelets' callbacks before it.
 std::chrono::nanoseconds waited(const ros::Time& receipt) {
-  const ros::Duration waited = ros::Time::now() - receipt;
-  return std::max<std::chrono::nanoseconds>(0ns, std::chrono::nanoseconds{waited.toNSec()});
+  return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
 }
 
 }  // namespace
@@ -108,7 +107,9 @@ void CommandInput::takePayloadStatus(const ros::MessageEvent<const PayloadStatus
 
 void CommandInput::command(const char* topic, const ros::Time& receipt, Convert convert) {
   const auto received = std::chrono::steady_clock::now() - waited(receipt);
-  post(motion_, [this, topic, received, convert = std::move(convert)](const vehicle::Now& now,
+  // One that the vehicle cannot be told must not take the place of one that it can.
+  Mailbox& mailbox = topic == topics::kCmdBehavior ? behavior_ : motion_;
+  post(mailbox, [this, topic, received, convert = std::move(convert)](const vehicle::Now& now,
                                                                       session::Output& out) {
     const Converted converted = convert();
     if (const auto* refusal = std::get_if<std::string>(&converted)) {

@@ -79,7 +79,8 @@ class CommandInput {
   session::NmeaSession& session_;
   const VehiclePublisher& publisher_;
   const PostTask post_;
-  Mailbox motion_;
+  Mailbox behavior_;  ///< of a Sandshark, where the other is refused
+  Mailbox motion_;    ///< of a Kingfisher
   Mailbox refused_;
   std::atomic<std::uint32_t> refusals_{0};  ///< not counted by the session yet
   Mailbox payload_status_;

@@ -127,6 +127,10 @@ vehicle::UtcTime toUtcTime(const ros::Time& time) {
   return std::chrono::seconds(time.sec) + std::chrono::nanoseconds(time.nsec);
 }
 
+std::chrono::nanoseconds timeFrom(const ros::Time& begin, const ros::Time& end) {
+  return toUtcTime(end) - toUtcTime(begin);
+}
+
 double variance(double standard_deviation) { return standard_deviation * standard_deviation; }
 
 std::string withId(const std::string& name, const std::optional<std::int64_t>& id) {

@@ -81,6 +81,10 @@ ros::Time toRosTime(vehicle::UtcTime time);
 
 vehicle::UtcTime toUtcTime(const ros::Time& time);
 
+/// How long `end` is after `begin`, for all times there are: the difference of two ros::Time throws
+/// when it is more than 68 years.
+std::chrono::nanoseconds timeFrom(const ros::Time& begin, const ros::Time& end);
+
 /// A standard deviation as a variance.
 double variance(double standard_deviation);
 

@@ -295,6 +295,8 @@ const Refusal kRefusals[] = {
     {"yaw_infinite", heading(kInfinity, 0.0), "horizontal is inf; a finite number is accepted"},
     {"yaw_minus_infinite", heading(-kInfinity, 0.0),
      "horizontal is -inf; a finite number is accepted"},
+    {"yaw_of_countless_turns", heading(1e307, 0.0),
+     "horizontal is 1e+307; -1000000..1000000 is accepted"},
     {"yaw_without_position", heading(1.0, {}),
      "horizontal is a heading, and no position of the vehicle is known yet to tell how its grid "
      "north lies"},
@@ -481,7 +483,13 @@ const Age kAges[] = {
      "header.stamp is 0.516 s old; at most 0.500 s (max_command_age) is accepted"},
     {"of_another_day", 1.0,
      "header.stamp is 99.000 s old; at most 0.500 s (max_command_age) is accepted"},
-    {"by_a_clock_that_is_ahead", 101.0, ""},
+    {"by_a_clock_that_is_ahead", 100.5, ""},
+    {"by_one_further_ahead", 100.515625,
+     "header.stamp is 0.516 s ahead of this computer's clock; at most 0.500 s (max_command_age) is "
+     "accepted"},
+    {"the_last_that_ros_knows", 4294967295.0,
+     "header.stamp is 4294967195.000 s ahead of this computer's clock; at most 0.500 s "
+     "(max_command_age) is accepted"},
 };
 
 class BehaviorAge : public testing::TestWithParam<Age> {};

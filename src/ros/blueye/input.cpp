@@ -9,6 +9,7 @@
 
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
+#include "convert.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -23,8 +24,7 @@ constexpr auto kPilotAtMostEvery = 1s;
 
 // How long a message waited in this process, other nodelets' callbacks before it.
 std::chrono::nanoseconds waited(const ros::Time& receipt) {
-  const ros::Duration waited = ros::Time::now() - receipt;
-  return std::max<std::chrono::nanoseconds>(0ns, std::chrono::nanoseconds{waited.toNSec()});
+  return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
 }
 
 std::string outside(const char* name, double value, double low, double high) {
