@@ -21,6 +21,7 @@ constexpr auto kGrace = 50ms;
 constexpr auto kLook = 20ms;
 
 constexpr const char* kStopping = "the driver is stopping";
+constexpr const char* kHeldUp = "the driver is held up; it is done as soon as that goes on";
 
 Answer done(const char* message) { return {true, message}; }
 
@@ -51,16 +52,20 @@ CommandServices::CommandServices(ros::NodeHandle node, const Parameters& paramet
   advertise<std_srvs::SetBool>(
       node, topics::kEnableCommands, urgent_, [this](std_srvs::SetBoolRequest& gate) {
         const bool open = gate.data != 0;
-        return ask([this, open](const auto& now, auto& out, const auto& respond) {
-          session_.setCommandsEnabled(now, open, out);
-          respond(done(open ? "the command gate is open" : "the command gate is closed"));
-        });
+        return ask(
+            [this, open](const auto& now, auto& out, const auto& respond) {
+              session_.setCommandsEnabled(now, open, out);
+              respond(done(open ? "the command gate is open" : "the command gate is closed"));
+            },
+            open ? WhenLate::Drop : WhenLate::DoAnyway);
       });
   advertise<std_srvs::Trigger>(node, topics::kStop, urgent_, [this](std_srvs::TriggerRequest&) {
-    return ask([this](const auto& now, auto& out, const auto& respond) {
-      session_.stop(now, out);
-      respond(done("commanding has ended"));
-    });
+    return ask(
+        [this](const auto& now, auto& out, const auto& respond) {
+          session_.stop(now, out);
+          respond(done("commanding has ended"));
+        },
+        WhenLate::DoAnyway);
   });
   if (!parameters.allow_raw_sentences) return;
   advertise<SendSentence>(node, topics::kSendSentence, threads_, [this](SendSentenceRequest& raw) {
@@ -91,7 +96,7 @@ void CommandServices::advertise(ros::NodeHandle& node, const char* name, Service
   servers_.push_back(node.advertiseService(options));
 }
 
-Answer CommandServices::ask(Ask task) const {
+Answer CommandServices::ask(Ask task, WhenLate when_late) const {
   // Shared with the task, which may come to run after the wait has ended.
   const auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> answer = promise->get_future();
@@ -99,15 +104,17 @@ Answer CommandServices::ask(Ask task) const {
   const auto deadline = called + timeout_ + kGrace;
   // What the caller has been told is late must not be done after all.
   const auto expiry = called + timeout_;
-  post_([task = std::move(task), promise, expiry](const vehicle::Now& now, session::Output& out) {
-    if (std::chrono::steady_clock::now() >= expiry) {
+  post_([task = std::move(task), promise, expiry, when_late](const vehicle::Now& now,
+                                                             session::Output& out) {
+    if (when_late == WhenLate::Drop && std::chrono::steady_clock::now() >= expiry) {
       return promise->set_value({false, "the driver was held up; nothing was done"});
     }
     task(now, out, [promise](const Answer& given) { promise->set_value(given); });
   });
   while (answer.wait_for(kLook) != std::future_status::ready) {
     if (closing_) return {false, kStopping};
-    if (std::chrono::steady_clock::now() >= deadline) return {false, "the driver did not answer"};
+    if (std::chrono::steady_clock::now() < deadline) continue;
+    return {false, when_late == WhenLate::Drop ? "the driver did not answer" : kHeldUp};
   }
   try {
     return answer.get();

@@ -44,7 +44,7 @@ class CommandServices {
   void advertise(ros::NodeHandle& node, const char* name, ServiceThreads& threads,
                  std::function<Answer(typename Service::Request&)> serve);
 
-  Answer ask(Ask task) const;
+  Answer ask(Ask task, WhenLate when_late = WhenLate::Drop) const;
   Answer request(session::Request wanted) const;
   Answer modifyBehavior(const Behavior& behavior) const;
   Answer setDatum(const SetDatumRequest& datum) const;

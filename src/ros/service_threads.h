@@ -11,6 +11,10 @@
 
 namespace frontseat_driver::ros_layer {
 
+/// What becomes of a call that the session's thread comes to so late that the caller has been told
+/// that nothing was done. What only ends something is done all the same.
+enum class WhenLate { Drop, DoAnyway };
+
 /// Runs service calls, each on a thread of its own while it lasts: a call that waits for the
 /// vehicle keeps nobody else waiting. No thread exists while no call is under way.
 class ServiceThreads : public ros::CallbackQueueInterface {

@@ -37,6 +37,7 @@ constexpr auto kLook = 20ms;
 constexpr auto kControlShown = 2s;
 
 constexpr const char* kStopping = "the driver is stopping";
+constexpr const char* kHeldUp = "the driver is held up; it is done as soon as that goes on";
 
 template <class Message>
 bool parse(std::string_view payload, Message& message) {
@@ -122,14 +123,16 @@ void Services::advertise(const char* name, std::function<Answer(typename Service
 
 Services::Answer Services::ask(Ask task) const { return ask(std::move(task), timeout_); }
 
-Services::Answer Services::ask(Ask task, std::chrono::milliseconds timeout) const {
+Services::Answer Services::ask(Ask task, std::chrono::milliseconds timeout,
+                               WhenLate when_late) const {
   // Shared with the task, which may come to run after the wait has ended.
   const auto promise = std::make_shared<std::promise<Answer>>();
   std::future<Answer> answer = promise->get_future();
   const auto expiry = std::chrono::steady_clock::now() + timeout;
   // What the caller has been told is late must not be done after all.
-  post_([task = std::move(task), promise, expiry](const vehicle::Now& now, BlueyeOutput& out) {
-    if (std::chrono::steady_clock::now() >= expiry) {
+  post_([task = std::move(task), promise, expiry, when_late](const vehicle::Now& now,
+                                                             BlueyeOutput& out) {
+    if (when_late == WhenLate::Drop && std::chrono::steady_clock::now() >= expiry) {
       return promise->set_value({false, "the driver was held up; nothing was done", {}, {}});
     }
     task(now, out, [promise](const Answer& given) { promise->set_value(given); });
@@ -138,9 +141,9 @@ Services::Answer Services::ask(Ask task, std::chrono::milliseconds timeout) cons
   const auto deadline = expiry + timeout + kGrace;
   while (answer.wait_for(kLook) != std::future_status::ready) {
     if (closing_) return {false, kStopping, {}, {}};
-    if (std::chrono::steady_clock::now() >= deadline) {
-      return {false, "the drone did not answer in time", {}, {}};
-    }
+    if (std::chrono::steady_clock::now() < deadline) continue;
+    const bool dropped = when_late == WhenLate::Drop;
+    return {false, dropped ? "the drone did not answer in time" : kHeldUp, {}, {}};
   }
   try {
     return answer.get();
@@ -155,10 +158,12 @@ void Services::addAuthority() {
   advertise<std_srvs::Trigger>(
       topics::kStop,
       [this](auto&) {
-        return ask([this](const auto& now, auto& out, const Respond& respond) {
-          const auto done = session_.stop(now, out);
-          respond({done.success, done.message, {}, {}});
-        });
+        return ask(
+            [this](const auto& now, auto& out, const Respond& respond) {
+              const auto done = session_.stop(now, out);
+              respond({done.success, done.message, {}, {}});
+            },
+            timeout_, WhenLate::DoAnyway);
       },
       true);
   advertise<Abort>(
@@ -173,10 +178,15 @@ void Services::addAuthority() {
   advertise<std_srvs::SetBool>(
       topics::kEnableCommands,
       [this](std_srvs::SetBoolRequest& gate) {
-        return ask([this, open = gate.data != 0](const auto& now, auto&, const Respond& respond) {
-          session_.setCommandsEnabled(now, open);
-          respond({true, open ? "the command gate is open" : "the command gate is closed", {}, {}});
-        });
+        const bool open = gate.data != 0;
+        return ask(
+            [this, open](const auto& now, auto&, const Respond& respond) {
+              session_.setCommandsEnabled(now, open);
+              const char* const told =
+                  open ? "the command gate is open" : "the command gate is closed";
+              respond({true, told, {}, {}});
+            },
+            timeout_, open ? WhenLate::Drop : WhenLate::DoAnyway);
       },
       true);
   const auto relay = [](const Respond& respond) {

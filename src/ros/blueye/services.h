@@ -41,7 +41,8 @@ class Services {
   template <class Service>
   void advertise(const char* name, std::function<Answer(typename Service::Request&)> serve,
                  bool urgent = false);
-  Answer ask(Ask task, std::chrono::milliseconds timeout) const;
+  Answer ask(Ask task, std::chrono::milliseconds timeout,
+             WhenLate when_late = WhenLate::Drop) const;
   Answer ask(Ask task) const;
 
   void addAuthority();

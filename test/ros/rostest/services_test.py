@@ -9,7 +9,7 @@ import time
 import unittest
 
 import rospy
-from frontseat_driver.msg import Behavior, ControlStatus
+from frontseat_driver.msg import Behavior, ControlStatus, Drive
 from frontseat_driver.srv import Abort, ModifyBehavior, SetDatum, SetLogging
 from nav_msgs.msg import Odometry
 from std_srvs.srv import SetBool, Trigger
@@ -91,6 +91,34 @@ class AcksWithheld(Services):
                 self.assertIn("did not acknowledge it within 1.0 s", answer.message)
                 self.assertGreater(took_s, ACK_TIMEOUT_S - 0.01)
                 self.assertLess(took_s, ACK_TIMEOUT_S + NOISE_S)
+
+
+class TooLate(Services):
+    """The driver comes to every call later than its caller waits."""
+    namespace = "/too_late"
+    command_timeout_s = 5.0
+
+    def test_what_ends_commanding_is_done_and_what_begins_it_is_not(self):
+        vehicle = boat()
+        self.start(vehicle, ack_timeout=1e-9, command_timeout=self.command_timeout_s)
+        connection = vehicle.wait_for_connection()
+        self.wait_for_permission()
+        control = Collector(self.namespace + "/control", ControlStatus)
+        self.addCleanup(control.close)
+        commands = Publisher(self.namespace + "/cmd_drive", Drive)
+        for name, service_type, arguments in (("stop", Trigger, ()),
+                                              ("enable_commands", SetBool, (False,))):
+            with row(name=name):
+                since = time.monotonic()
+                commands.publish(Drive(left=0.5, right=0.5))
+                wait_until(lambda: connection.since(since, "DIR,50,50"), "thrust")
+                self.call(name, service_type, *arguments)
+                zeros = wait_until(lambda: connection.since(since, "DIR,0,0"), "zero thrust")
+                self.assertLess(zeros[0][0] - since, self.command_timeout_s - NOISE_S)
+        answer, _ = self.call("enable_commands", SetBool, True)
+        self.assertFalse(answer.success)
+        self.assertIn("nothing was done", answer.message)
+        self.assertFalse(control.messages[-1].commands_enabled)
 
 
 class ManyCallers(Services):
