@@ -22,6 +22,14 @@ std::chrono::nanoseconds waited(const ros::Time& receipt) {
   return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
 }
 
+// What tells its age is judged by that, and how the payload is holds until it changes.
+template <class Message>
+bool mayBeOfAnyAge(const Message&) {
+  return true;
+}
+bool mayBeOfAnyAge(const Behavior& behavior) { return behavior.header.stamp.isZero(); }
+bool mayBeOfAnyAge(const PayloadStatus&) { return false; }
+
 }  // namespace
 
 CommandInput::CommandInput(ros::NodeHandle node, std::string name, const Parameters& parameters,
@@ -49,8 +57,11 @@ ros::Subscriber CommandInput::subscribe(
     void (CommandInput::*take)(const ros::MessageEvent<const Message>&)) {
   ros::SubscribeOptions options;
   options.template initByFullCallbackType<const ros::MessageEvent<const Message>&>(
-      topic, kNewestOnly,
-      [this, take](const ros::MessageEvent<const Message>& event) { (this->*take)(event); });
+      topic, kNewestOnly, [this, topic, take](const ros::MessageEvent<const Message>& event) {
+        const std::string latched = latched_.refusal(event.getConnectionHeaderPtr());
+        const bool refused = !latched.empty() && mayBeOfAnyAge(*event.getMessage());
+        return refused ? refuse(topic, latched) : (this->*take)(event);
+      });
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return node.subscribe(options);
 }

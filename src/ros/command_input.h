@@ -19,6 +19,7 @@
 
 #include "command_convert.h"
 #include "frontseat_driver/session/nmea_session.h"
+#include "latched_messages.h"
 #include "parameters.h"
 #include "throttle.h"
 #include "vehicle_publisher.h"
@@ -85,6 +86,7 @@ class CommandInput {
   std::atomic<std::uint32_t> refusals_{0};  ///< not counted by the session yet
   Mailbox payload_status_;
   Throttle log_;
+  LatchedMessages latched_{publishersNow()};  ///< asked for before anything is subscribed to
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -105,6 +105,12 @@ void Input::subscribe(const char* topic, Function take) {
   options.template initByFullCallbackType<const ros::MessageEvent<const Message>&>(
       topic, kNewestOnly,
       [this, take, topic, &mailbox](const ros::MessageEvent<const Message>& event) {
+        const std::string latched = latched_.refusal(event.getConnectionHeaderPtr());
+        if (!latched.empty()) {
+          return post_([this, topic, latched](const vehicle::Now& now, BlueyeOutput&) {
+            takeCounted(now, topic, [&] { return latched; });
+          });
+        }
         const auto received = std::chrono::steady_clock::now() - waited(event.getReceiptTime());
         post(mailbox, [this, take, topic, received, message = event.getConstMessage()](
                           const vehicle::Now& now, BlueyeOutput& out) {

@@ -20,6 +20,7 @@
 
 #include "blueye/parameters.h"
 #include "blueye/post.h"
+#include "latched_messages.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -88,6 +89,7 @@ class Input {
   Mailbox* motion_ = nullptr;     ///< of cmd_vel and cmd_motion together
   std::map<std::string, vehicle::SteadyTime> next_warnings_;  ///< by topic
   vehicle::SteadyTime next_pilot_{};
+  LatchedMessages latched_{publishersNow()};  ///< asked for before anything is subscribed to
   std::vector<ros::Subscriber> subscribers_;
 };
 

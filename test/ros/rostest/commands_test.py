@@ -120,6 +120,21 @@ class Boat(Commanding):
                 self.assertEqual("$%s*%s" % (expected, checksum(expected)), heard[-1][1])
         self.assertEqual([], [body for body in self.connection.bodies() if body[:2] != "PY"])
 
+    def test_what_was_latched_before_the_driver_came_is_not_sent(self):
+        ahead = Drive(left=0.5, right=0.5)
+        latching = Publisher(self.namespace + "/cmd_drive", Drive, latched=ahead)
+        self.addCleanup(latching.close)
+        self.start(boat())
+        wait_until(lambda: [line for line in self.driver.process.warnings()
+                            if " latches, " in line], "a warning")
+        self.assertEqual([], self.connection.bodies())
+        latching.publish(ahead)
+        self.connection.wait_for("DIR")
+        # From who came later it is a new one.
+        also = Publisher(self.namespace + "/cmd_helm", Helm, latched=Helm(thrust=0.5))
+        self.addCleanup(also.close)
+        self.connection.wait_for("DEP")
+
     def test_a_fresh_command_is_repeated_and_then_ends_with_one_zero(self):
         self.start(boat())
         self.publisher("cmd_drive", Drive).publish(Drive(left=0.5, right=0.5))

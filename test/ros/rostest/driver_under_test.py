@@ -236,8 +236,13 @@ class Collector:
 class Publisher:
     """A topic to one subscriber, which is there when this returns."""
 
-    def __init__(self, topic, message_type):
-        self._publisher = rospy.Publisher(topic, message_type, queue_size=1000, tcp_nodelay=True)
+    def __init__(self, topic, message_type, latched=None):
+        """With a message that is published at once, before anybody hears it, and latched."""
+        self._publisher = rospy.Publisher(topic, message_type, queue_size=1000, tcp_nodelay=True,
+                                          latch=latched is not None)
+        if latched is not None:
+            self._publisher.publish(latched)
+            return
         wait_until(lambda: self._publisher.get_num_connections() > 0, "a subscriber of " + topic)
 
     def publish(self, message):
