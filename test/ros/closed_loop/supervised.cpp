@@ -293,13 +293,14 @@ void Supervised::requestAbort(const std::string& reason, bool with_errors) {
   const std::string text = reason + " " + std::to_string(++last_number_);
   open.text = asSent(text);
   const bool taken = loop_.connected() && !isBoat() && !left_ && canStand(text);
-  if (taken) {
+  // A boat has no mission to abort; commanding it ends all the same.
+  if (taken || (loop_.connected() && isBoat() && !left_)) {
     endCommand();
     permitted_since_ = loop_.elapsed();
-    if (!waiting_abort_) {
-      waiting_abort_ = loop_.asked().size();
-      abort_asked_ = loop_.elapsed();
-    }
+  }
+  if (taken && !waiting_abort_) {
+    waiting_abort_ = loop_.asked().size();
+    abort_asked_ = loop_.elapsed();
   }
   const std::size_t number = begin(std::move(open));
   loop_.request(session::AbortRequest{text, with_errors});
