@@ -141,11 +141,12 @@ TEST(WrittenTime, HasMillisecondsCutOff) {
   const auto write = [](SentenceWriter& out) {
     out.timeOfDay(TimeOfDay{0});
     out.timeOfDay(hours{8} + std::chrono::minutes{10} + milliseconds{25'987});
+    out.timeOfDay(hours{13} + std::chrono::minutes{5} + milliseconds{6'007});
     out.timeOfDay(hours{24} - microseconds{1});
     out.timeOfDay(hours{24});
     out.timeOfDay(hours{24} + milliseconds{999});
   };
-  EXPECT_EQ(written(write), "000000.000,081025.987,235959.999,235960.000,235960.999");
+  EXPECT_EQ(written(write), "000000.000,081025.987,130506.007,235959.999,235960.000,235960.999");
 }
 
 TEST(WrittenDate, IsDayMonthYear) {
