@@ -143,7 +143,7 @@ void CommandInput::refuse(const char* topic, std::string refusal) {
 }
 
 void CommandInput::warn(const char* topic, const std::string& refusal, const vehicle::Now& now) {
-  if (!log_.passes(now.steady)) return;
+  if (!logs_[topic].passes(now.steady)) return;
   ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
 }
 

@@ -13,6 +13,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -85,7 +86,7 @@ class CommandInput {
   Mailbox refused_;
   std::atomic<std::uint32_t> refusals_{0};  ///< not counted by the session yet
   Mailbox payload_status_;
-  Throttle log_;
+  std::map<std::string, Throttle> logs_;      ///< by topic
   LatchedMessages latched_{publishersNow()};  ///< asked for before anything is subscribed to
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -20,17 +20,23 @@ class CompassCheck {
 
   explicit CompassCheck(const Parameters& parameters)
       : convention_(parameters.compass_convention),
+        max_age_(parameters.max_data_age),
         declination_rad_(parameters.magnetic_declination_rad) {}
 
-  void take(const vehicle::Navigation& navigation) { heading_deg_ = navigation.heading_deg; }
+  void take(const vehicle::Navigation& navigation, vehicle::SteadyTime now) {
+    heading_deg_ = navigation.heading_deg;
+    heading_at_ = now;
+  }
 
   /// What to tell the user, once for each time that they begin to disagree; empty otherwise.
   std::string take(const vehicle::Compass& compass, vehicle::SteadyTime now);
 
  private:
   const CompassConvention convention_;
+  const std::chrono::nanoseconds max_age_;
   const double declination_rad_;
   std::optional<double> heading_deg_;  ///< the navigation's
+  vehicle::SteadyTime heading_at_{};
   std::optional<vehicle::SteadyTime> apart_since_;
   bool told_ = false;
 };

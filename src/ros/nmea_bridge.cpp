@@ -181,7 +181,7 @@ void NmeaBridge::followDialect() {
 
 void NmeaBridge::watchCompass(const vehicle::Now& now, const vehicle::Event& event) {
   if (const auto* navigation = std::get_if<vehicle::Navigation>(&event)) {
-    compass_check_.take(*navigation);
+    compass_check_.take(*navigation, now.steady);
   } else if (const auto* compass = std::get_if<vehicle::Compass>(&event)) {
     const std::string disagreement = compass_check_.take(*compass, now.steady);
     if (!disagreement.empty()) ROS_WARN("%s: %s", name_.c_str(), disagreement.c_str());

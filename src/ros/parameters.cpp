@@ -74,6 +74,9 @@ std::vector<std::string> readLogSentences(PrivateParameters& in,
   std::vector<std::string> once;
   for (const std::string& name : in.words("log_sentences", fallback, kAccepted)) {
     if (!isSentenceName(name)) in.refuse("log_sentences", kAccepted);
+    if (session::holdsCommand(name)) {
+      in.refuse("log_sentences", "a list without the commands RMB, LOG, ABT, STS and VER");
+    }
     if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
   }
   return once;

@@ -67,7 +67,8 @@ bool isRefusal(const Acknowledgement& ack) {
 }
 
 bool isLogName(const std::string& name) {
-  return name.size() == 3 && std::all_of(name.begin(), name.end(), [](char letter) {
+  return name.size() == 3 && !holdsCommand(name) &&
+         std::all_of(name.begin(), name.end(), [](char letter) {
            return (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
          });
 }
@@ -368,7 +369,8 @@ std::string NmeaSession::refusalOf(const Request& request, const Now& now) const
   if (leaving_) return kLeaving;
   if (const auto* log = std::get_if<LogSwitch>(&request); log && !isLogName(log->sentence)) {
     return "sentence is '" + log->sentence +
-           "'; three capital letters such as NVG, or ALL, are accepted";
+           "'; three capital letters such as NVG, or ALL, are accepted (RMB, LOG, ABT, STS and VER "
+           "are commands)";
   }
   const auto sentence = sentenceFor(request, now).finish();
   if (!sentence || sentence->size() > kMostBytesSent) return unsendable(request);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 namespace frontseat_driver::session {
 
@@ -30,12 +31,15 @@ std::string_view withoutStart(std::string_view body) {
 
 }  // namespace
 
+bool holdsCommand(std::string_view text) {
+  return std::any_of(std::begin(kCommands), std::end(kCommands), [text](std::string_view command) {
+    return text.find(command) != std::string_view::npos;
+  });
+}
+
 std::optional<SentenceText> toSentenceText(std::string_view text) {
   if (!nmea::isFieldText(text)) return std::nullopt;
-  SentenceText result{std::string{text}, false};
-  for (const std::string_view command : kCommands) {
-    if (text.find(command) != std::string_view::npos) result.lowered = true;
-  }
+  SentenceText result{std::string{text}, holdsCommand(text)};
   if (result.lowered) {
     std::transform(text.begin(), text.end(), result.text.begin(), lower);
   }

@@ -18,7 +18,7 @@ class CompassDisagreement : public testing::Test {
     for (const auto end = now_ + duration; now_ < end; now_ += 100ms) {
       vehicle::Navigation navigation;
       navigation.heading_deg = navigation_deg;
-      check.take(navigation);
+      check.take(navigation, now_);
       vehicle::Compass compass;
       compass.heading_deg = compass_deg;
       const std::string line = check.take(compass, now_);
@@ -46,6 +46,17 @@ TEST_F(CompassDisagreement, IsToldAgainAfterTheyHaveAgreed) {
   EXPECT_EQ(told(check, 234.0, 306.0, 60s), 1);
   EXPECT_EQ(told(check, 10.0, 350.0, 60s), 0);  // 20 degrees apart, across north
   EXPECT_EQ(told(check, 234.0, 306.0, 60s), 1);
+}
+
+TEST_F(CompassDisagreement, IsNotToldFromAHeadingOfLongAgo) {
+  CompassCheck check{Parameters{}};
+  EXPECT_EQ(told(check, 234.0, 306.0, 10s), 0);
+  vehicle::Compass compass;
+  compass.heading_deg = 306.0;
+  for (const auto end = now_ + 60s; now_ < end; now_ += 100ms) {
+    EXPECT_EQ(check.take(compass, now_), "");  // the navigation is silent
+  }
+  EXPECT_EQ(told(check, 234.0, 306.0, 19s), 0);  // what was before does not count
 }
 
 TEST_F(CompassDisagreement, HeedsConventionAndDeclination) {

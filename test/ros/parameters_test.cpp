@@ -312,6 +312,9 @@ const Refused kRefused[] = {
     {"log_sentence_number", "log_sentences", list({1}),
      "parameter log_sentences is [1]: a list of sentence names of three capitals, [NVG, NVR], is "
      "accepted"},
+    {"log_sentences_command", "log_sentences", list({"NVG", "RMB"}),
+     "parameter log_sentences is [\"NVG\", \"RMB\"]: a list without the commands RMB, LOG, ABT, "
+     "STS and VER is accepted"},
     {"log_sentences_boolean", "log_sentences", true,
      "parameter log_sentences is true: a list of sentence names of three capitals, [NVG, NVR], is "
      "accepted"},

@@ -741,9 +741,14 @@ TEST_F(Commanding, AnAbortNeedsNotKnowTheDialect) {
 
 TEST_F(Commanding, ALogNameMustBeOne) {
   startSandshark();
-  request(LogSwitch{"nvg", true});
-  EXPECT_EQ(answers_[0].message,
-            "sentence is 'nvg'; three capital letters such as NVG, or ALL, are accepted");
+  for (const char* name : {"nvg", "RMB", "ABT"}) {
+    request(LogSwitch{name, true});
+    EXPECT_EQ(answers_.back().message,
+              std::string{"sentence is '"} + name +
+                  "'; three capital letters such as NVG, or ALL, are accepted (RMB, LOG, ABT, STS "
+                  "and VER are commands)");
+  }
+  EXPECT_THAT(out_.sent, IsEmpty());
 }
 
 TEST_F(Commanding, WithoutAcknowledgementsSentIsTheAnswer) {

@@ -18,8 +18,11 @@ struct SentenceText {
   bool lowered = false;  ///< it held a command's name in capitals and was put into lower case
 };
 
-/// Field frontseats find the command by the first of RMB, LOG, ABT, STS, VER anywhere in the line,
-/// so a text that holds one of them is put into lower case. Nothing for a text that would break the
+/// Whether a text holds RMB, LOG, ABT, STS or VER: field frontseats find the command by the first
+/// of them anywhere in the line.
+bool holdsCommand(std::string_view text);
+
+/// So a text that holds one of them is put into lower case. Nothing for a text that would break the
 /// sentence: a comma, an asterisk, `$`, control or non-ASCII characters.
 std::optional<SentenceText> toSentenceText(std::string_view text);
 
