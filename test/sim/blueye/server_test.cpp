@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zmq.h>
 
+#include <atomic>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -13,6 +14,7 @@
 #include <future>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 #include <zmq.hpp>
 
@@ -294,6 +296,8 @@ TEST_F(Server, ComesBackFromARebootWhenFilesCanBeOpenedAgain) {
     });
     while (online()) {
     }
+    // A sanitizer needs files to look into the first of its kind.
+    EXPECT_NE(zmq::error_t{}.what(), nullptr);
     link::testing::NoMoreFiles scarce;
     while (!online()) scarce.takeAll();
     scarce.takeAll();
@@ -310,7 +314,9 @@ TEST_F(Server, AnswersOverHttpWhenFilesCanBeOpenedAgain) {
   {
     const link::testing::NoMoreFiles scarce;
     visitor.connect({boost::asio::ip::make_address("127.0.0.1"), server.httpPort()});
-    look<int>([](BlueyeDrone&) { return 0; });
+    std::atomic<bool> turned{false};  // no future: a sanitizer needs files to look into one
+    server.post([&](BlueyeDrone&) { turned = true; });
+    while (!turned) std::this_thread::yield();
   }
   const std::string request = "GET /diagnostics/drone_info HTTP/1.1\r\nHost: x\r\n\r\n";
   boost::asio::write(visitor, boost::asio::buffer(request));
