@@ -140,13 +140,14 @@ Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg) {
 std::string tooOld(const Behavior& behavior, const ros::Time& now,
                    std::chrono::nanoseconds max_command_age) {
   if (behavior.header.stamp.isZero()) return {};
-  const std::chrono::duration<double> age = timeFrom(behavior.header.stamp, now);
+  const double age_s = std::chrono::duration<double>(timeFrom(behavior.header.stamp, now)).count();
   const double limit_s = std::chrono::duration<double>(max_command_age).count();
-  if (std::abs(age.count()) <= limit_s) return {};
+  const double apart_s = std::fabs(age_s);
+  if (apart_s <= limit_s) return {};
   char text[160];
-  std::snprintf(
-      text, sizeof text, "header.stamp is %.3f s %s; at most %.3f s (max_command_age) is accepted",
-      std::abs(age.count()), age.count() > 0.0 ? "old" : "ahead of this computer's clock", limit_s);
+  std::snprintf(text, sizeof text,
+                "header.stamp is %.3f s %s; at most %.3f s (max_command_age) is accepted", apart_s,
+                age_s > 0.0 ? "old" : "ahead of this computer's clock", limit_s);
   return text;
 }
 
