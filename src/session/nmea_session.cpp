@@ -295,9 +295,7 @@ std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
 }
 
 void NmeaSession::stop(const Now& now, Output& out) {
-  requests_.failUnsentCommands("commanding was stopped before it could be sent");
-  permitted_since_ = now.steady;
-  endCommanding(now, out);
+  endEverything(now, "commanding was stopped before it could be sent", out);
   zero_due_ = connected_ && isBoat() && !options_.listen_only && !hasLeft();
 }
 
@@ -312,6 +310,13 @@ void NmeaSession::permissionChanged(const Now& now, Output& out) {
     endCommanding(now, out);
   }
   reportControl(now, out);
+}
+
+// Also what waits to be sent, or for the driver to come to it.
+void NmeaSession::endEverything(const Now& now, const char* why, Output& out) {
+  requests_.failUnsentCommands(why);
+  permitted_since_ = now.steady;
+  endCommanding(now, out);
 }
 
 void NmeaSession::endCommanding(const Now& now, Output& out) {
@@ -347,22 +352,16 @@ void NmeaSession::request(const Now& now, Request request, Respond respond, Outp
     const bool later = remembered && !connected_;
     return respond({false, later ? refusal + "; it will be asked for when there is" : refusal});
   }
-  if (is_abort) {
-    requests_.failUnsentCommands("the mission was aborted before it could be sent");
-    permitted_since_ = now.steady;
-    endCommanding(now, out);
-  }
+  if (is_abort) endEverything(now, "the mission was aborted before it could be sent", out);
   requests_.add(std::move(request), std::move(note), std::move(respond), now.steady);
 }
 
 // A boat has no mission to abort, but who asks for it does not want it to go on.
 std::string NmeaSession::refuseAbort(const Now& now, const std::string& refusal, Output& out) {
   if (!isBoat()) return refusal;
-  requests_.failUnsentCommands("an abort came before it could be sent");
-  permitted_since_ = now.steady;
-  if (!slot_.occupied()) return refusal;
-  endCommanding(now, out);
-  return refusal + "; commanding has ended";
+  const bool commanded = slot_.occupied();
+  endEverything(now, "an abort came before it could be sent", out);
+  return commanded ? refusal + "; commanding has ended" : refusal;
 }
 
 std::string NmeaSession::refusalOf(const Request& request, const Now& now) const {

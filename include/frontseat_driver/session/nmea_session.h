@@ -159,6 +159,7 @@ class NmeaSession : public Session {
   void count(const nmea::Failure& failure);
   void learnDialect(const Now& now, protocol::Dialect dialect, Output& out);
   void permissionChanged(const Now& now, Output& out);
+  void endEverything(const Now& now, const char* why, Output& out);
   void endCommanding(const Now& now, Output& out);
 
   std::string refusalOf(const Now& now, const vehicle::Command& command) const;
