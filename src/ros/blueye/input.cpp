@@ -4,9 +4,9 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
+#include "blueye/outside.h"
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
 #include "convert.h"
@@ -25,13 +25,6 @@ constexpr auto kPilotAtMostEvery = 1s;
 // How long a message waited in this process, other nodelets' callbacks before it.
 std::chrono::nanoseconds waited(const ros::Time& receipt) {
   return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
-}
-
-std::string outside(const char* name, double value, double low, double high) {
-  if (value >= low && value <= high) return {};
-  char text[120];
-  std::snprintf(text, sizeof text, "%s is %.10g; %g to %g is accepted", name, value, low, high);
-  return text;
 }
 
 }  // namespace

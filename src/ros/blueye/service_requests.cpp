@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
+#include <string>
+#include <utility>
 
 #include "blueye/messages.h"
+#include "blueye/outside.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -17,10 +19,7 @@ constexpr double kMultibeamLimit_deg = 28.0;  // of the servo, though the docume
 class Check {
  public:
   void within(const char* field, double value, double low, double high) {
-    if (value >= low && value <= high) return;  // false for NaN
-    char text[120];
-    std::snprintf(text, sizeof text, "%s is %.10g; %g to %g is accepted", field, value, low, high);
-    refuse(text);
+    refuse(outside(field, value, low, high));
   }
 
   void finite(const char* field, double value) {
