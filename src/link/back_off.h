@@ -18,7 +18,7 @@ class BackOff {
       : max_(std::max(max, Milliseconds(1))),
         min_(std::clamp(min, Milliseconds(1), max_)),
         step_(min_),
-        random_(orAny(seed)) {}
+        random_(seed != 0 ? seed : std::random_device{}()) {}
 
   Milliseconds next() {
     std::uniform_int_distribution<Milliseconds::rep> delay_ms(std::max(min_, step_ / 2).count(),
@@ -31,11 +31,6 @@ class BackOff {
   void restart() { step_ = min_; }
 
  private:
-  static std::uint64_t orAny(std::uint64_t seed) {
-    if (seed != 0) return seed;
-    return std::random_device{}();
-  }
-
   Milliseconds max_;
   Milliseconds min_;
   Milliseconds step_;
