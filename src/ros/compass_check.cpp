@@ -9,8 +9,11 @@
 namespace frontseat_driver::ros_layer {
 
 std::string CompassCheck::take(const vehicle::Compass& compass, vehicle::SteadyTime now) {
-  if (now - heading_at_ > max_age_) apart_since_.reset();  // what it was then says nothing of now
-  if (!compass.heading_deg || !heading_deg_ || now - heading_at_ > max_age_) return {};
+  if (now - heading_at_ > max_age_) {  // what it was then says nothing of now
+    heading_deg_.reset();
+    apart_since_.reset();
+  }
+  if (!compass.heading_deg || !heading_deg_) return {};
   const CompassAngles angles = toSpecification({*compass.heading_deg, 0.0}, convention_);
   const double compass_deg = wrapHeading_deg(angles.heading_deg + declination_rad_ * 180.0 / M_PI);
   const double apart_deg = std::abs(std::remainder(compass_deg - *heading_deg_, 360.0));
