@@ -7,6 +7,7 @@
 #include "blueye/control.pb.h"
 #include "blueye/req_rep.pb.h"
 #include "blueye/telemetry.pb.h"
+#include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::session {
 
@@ -14,6 +15,7 @@ namespace {
 
 using namespace std::chrono_literals;
 namespace pb = blueye::protocol;
+using protocol::parse;
 using vehicle::Grant;
 using vehicle::Now;
 using State = vehicle::MissionStatus::State;
@@ -57,11 +59,6 @@ bool endsWith(std::string_view text, std::string_view end) {
 }
 
 std::string_view withoutPackage(std::string_view type) { return type.substr(type.rfind('.') + 1); }
-
-template <class Message>
-bool parse(std::string_view payload, Message& message) {
-  return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
-}
 
 /// The drone shows that no mission runs. Not that one is ready or has ended: that may be from
 /// before it was told to run one.
