@@ -1,73 +1,26 @@
 // Missions of a Blueye in virtual time, by the thousand: session, simulated drone, its other
 // clients and the network, every choice from a seed, every promise looked at after every step.
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <mutex>
 #include <string>
-#include <string_view>
-#include <thread>
 
+#include "arguments.h"
 #include "mission.h"
 #include "seeds.h"
 
 namespace {
 
 using namespace frontseat_driver::blueye_simulation;
+using frontseat_driver::simulation::Arguments;
 using frontseat_driver::simulation::firstBroken;
 using frontseat_driver::simulation::leastThat;
 
-constexpr const char* kUsage =
-    "usage: blueye_mission_simulation [--seeds=N] [--first=N] [--hours=H] [--pace=P]\n"
-    "                                 [--threads=N] [--quiet] [--no-shrink]\n"
-    "       blueye_mission_simulation --seed=N [--hours=H] [--pace=P] [--verbose] [--no-shrink]\n"
-    "Runs virtual missions and ends with status 1 at the first broken promise. With --seed, the\n"
-    "one run; --verbose prints everything that is said and happens; --pace has more happen in an\n"
-    "hour. A failure is shrunk to the least that causes it. Usual are 0.03 hours at pace 5.\n";
-
-struct Options {
-  std::uint64_t first = 1;
-  std::uint64_t seeds = 1;
-  double hours = 0.03;
-  double pace = 5.0;
-  unsigned threads = std::max(1U, std::thread::hardware_concurrency());
-  bool verbose = false;
-  bool quiet = false;
-  bool shrinks = true;
-};
-
-bool take(Options& options, std::string_view argument) {
-  const std::size_t equals = argument.find('=');
-  const std::string_view name = argument.substr(0, equals);
-  const std::string value{equals == std::string_view::npos ? "" : argument.substr(equals + 1)};
-  const auto number = [&] { return std::strtoull(value.c_str(), nullptr, 10); };
-  if (name == "--seed" || name == "--first") {
-    options.first = number();
-  } else if (name == "--seeds") {
-    options.seeds = number();
-  } else if (name == "--hours") {
-    options.hours = std::strtod(value.c_str(), nullptr);
-  } else if (name == "--pace") {
-    options.pace = std::strtod(value.c_str(), nullptr);
-  } else if (name == "--threads") {
-    options.threads = static_cast<unsigned>(std::max<unsigned long long>(1, number()));
-  } else if (name == "--verbose") {
-    options.verbose = true;
-  } else if (name == "--quiet") {
-    options.quiet = true;
-  } else if (name == "--no-shrink") {
-    options.shrinks = false;
-  } else {
-    return false;
-  }
-  return options.hours > 0.0 && options.pace > 0.0 && options.seeds > 0;
-}
-
-void tell(const Options& options, std::uint64_t seed, const std::string& first_broken) {
+void tell(const Arguments& options, std::uint64_t seed, const std::string& first_broken) {
   Plan plan = planFor(seed, options.hours, options.pace);
-  if (options.shrinks) {
+  if (!options.no_shrink) {
     plan = leastThat<Plan>(plan, [](const Plan& fewer) { return !Mission{fewer}.run().empty(); });
   }
   Mission mission{plan};
@@ -75,7 +28,7 @@ void tell(const Options& options, std::uint64_t seed, const std::string& first_b
   const std::string broken = mission.run();
   std::printf("BROKEN with seed %llu: %s\n", static_cast<unsigned long long>(seed),
               first_broken.c_str());
-  if (options.shrinks) std::printf("the least that breaks it (%s):\n", broken.c_str());
+  if (!options.no_shrink) std::printf("the least that breaks it (%s):\n", broken.c_str());
   std::printf("%slast events:\n", describe(plan).c_str());
   for (const std::string& line : mission.trace()) std::printf("%s\n", line.c_str());
   std::printf("again: blueye_mission_simulation --seed=%llu --hours=%g --pace=%g --verbose\n",
@@ -110,11 +63,11 @@ void tell(const Totals& totals) {
   }
 }
 
-int run(const Options& options) {
+int run(const Arguments& options) {
   const auto begun = std::chrono::steady_clock::now();
   std::mutex mutex;
   Totals totals;
-  const auto broken = firstBroken(options.first, options.seeds, options.threads, [&](auto seed) {
+  const auto broken = firstBroken(options.first, options.count, options.threads, [&](auto seed) {
     Mission mission{planFor(seed, options.hours, options.pace)};
     mission.verbose = options.verbose;
     std::string found = mission.run();
@@ -138,11 +91,13 @@ int run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; ++i) {
-    if (take(options, argv[i])) continue;
-    std::fprintf(stderr, "argument '%s' is not accepted\n%s", argv[i], kUsage);
-    return 2;
-  }
+  Arguments options;
+  options.hours = 0.03;
+  options.pace = 5.0;
+  CLI::App app{
+      "Runs virtual missions of a Blueye and ends with status 1 at the first broken promise. "
+      "Usual are 0.03 hours at pace 5."};
+  frontseat_driver::simulation::addOptions(app, options);
+  CLI11_PARSE(app, argc, argv);
   return run(options);
 }
