@@ -5,6 +5,7 @@
 
 #include "convert.h"
 #include "covariance.h"
+#include "transforms.h"
 
 namespace frontseat_driver::ros_layer {
 
@@ -15,17 +16,6 @@ constexpr int kKingfisherLeapSeconds = 18;
 // Its positions come through 32-bit floats, in steps of up to 0.85 m (field notes, NVG).
 constexpr double kSandsharkLeastStddev_m = 0.5;
 constexpr const char* kAltimeterFrame = "altimeter_link";
-
-geometry_msgs::TransformStamped rotation(const ros::Time& stamp, const std::string& parent,
-                                         const std::string& child, double x, double y) {
-  geometry_msgs::TransformStamped out;
-  out.header.stamp = stamp;
-  out.header.frame_id = parent;
-  out.child_frame_id = child;
-  out.transform.rotation.x = x;
-  out.transform.rotation.y = y;
-  return out;
-}
 
 }  // namespace
 
@@ -144,14 +134,7 @@ void MessageBuilder::fillTwist(geometry_msgs::TwistWithCovariance& out,
 std::optional<geometry_msgs::TransformStamped> MessageBuilder::transform(
     const nav_msgs::Odometry& odometry) {
   if (!guards_[kTransform].advances(odometry.header.stamp)) return std::nullopt;
-  geometry_msgs::TransformStamped out;
-  out.header = odometry.header;
-  out.child_frame_id = odometry.child_frame_id;
-  out.transform.translation.x = odometry.pose.pose.position.x;
-  out.transform.translation.y = odometry.pose.pose.position.y;
-  out.transform.translation.z = odometry.pose.pose.position.z;
-  out.transform.rotation = odometry.pose.pose.orientation;
-  return out;
+  return toTransform(odometry);
 }
 
 std::optional<sensor_msgs::NavSatFix> MessageBuilder::navFix() {
@@ -207,13 +190,7 @@ std::optional<geometry_msgs::TwistStamped> MessageBuilder::navVelocity() {
 
 std::array<geometry_msgs::TransformStamped, 2> MessageBuilder::helperFrames(
     const vehicle::Now& now) const {
-  constexpr double kHalfRoot = 0.70710678118654752440;
-  const ros::Time stamp = toRosTime(now.stamp);
-  const std::string& base = parameters_.base_frame;
-  const std::string& odom = parameters_.odom_frame;
-  // Half a turn about the bow, and half a turn about north-east.
-  return {rotation(stamp, base, base + "_frd", 1.0, 0.0),
-          rotation(stamp, odom, odom + "_ned", kHalfRoot, kHalfRoot)};
+  return frdFrames(toRosTime(now.stamp), parameters_.base_frame, parameters_.odom_frame);
 }
 
 std_msgs::Header MessageBuilder::header(Topic topic, const ros::Time& stamp,

@@ -4,6 +4,7 @@
 
 #include "convert.h"
 #include "covariance.h"
+#include "transforms.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -254,14 +255,7 @@ std::optional<double> Navigation::up_m_s(const vehicle::Now& now) const {
 std::optional<geometry_msgs::TransformStamped> Navigation::transform(
     const nav_msgs::Odometry& odometry) const {
   if (!estimate_ || !estimate_->message.position_estimate().is_valid()) return std::nullopt;
-  geometry_msgs::TransformStamped out;
-  out.header = odometry.header;
-  out.child_frame_id = odometry.child_frame_id;
-  out.transform.translation.x = odometry.pose.pose.position.x;
-  out.transform.translation.y = odometry.pose.pose.position.y;
-  out.transform.translation.z = odometry.pose.pose.position.z;
-  out.transform.rotation = odometry.pose.pose.orientation;
-  return out;
+  return toTransform(odometry);
 }
 
 std::optional<geometry_msgs::TransformStamped> Navigation::mapTransform(
