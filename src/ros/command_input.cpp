@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 
-#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -13,14 +12,7 @@ namespace frontseat_driver::ros_layer {
 
 namespace {
 
-using namespace std::chrono_literals;
-
 constexpr std::uint32_t kNewestOnly = 1;
-
-// How long a message waited in this process, other nodelets' callbacks before it.
-std::chrono::nanoseconds waited(const ros::Time& receipt) {
-  return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
-}
 
 // What tells its age is judged by that, and how the payload is holds until it changes.
 template <class Message>
@@ -109,19 +101,19 @@ void CommandInput::takeConverted(const char* topic, const ros::Time& receipt,
 }
 
 void CommandInput::takePayloadStatus(const ros::MessageEvent<const PayloadStatus>& event) {
-  post(payload_status_,
-       [this, status = event.getMessage()](const vehicle::Now& now, session::Output&) {
-         const auto refusal = session_.setPayloadStatus(now, {status->ok != 0, status->message});
-         if (!refusal.empty()) warn(topics::kPayloadStatus, refusal, now);
-       });
+  payload_status_.put(
+      post_, [this, status = event.getMessage()](const vehicle::Now& now, session::Output&) {
+        const auto refusal = session_.setPayloadStatus(now, {status->ok != 0, status->message});
+        if (!refusal.empty()) warn(topics::kPayloadStatus, refusal, now);
+      });
 }
 
 void CommandInput::command(const char* topic, const ros::Time& receipt, Convert convert) {
-  const auto received = std::chrono::steady_clock::now() - waited(receipt);
+  const auto received = receivedAt(receipt);
   // One that the vehicle cannot be told must not take the place of one that it can.
   Mailbox& mailbox = topic == topics::kCmdBehavior ? behavior_ : motion_;
-  post(mailbox, [this, topic, received, convert = std::move(convert)](const vehicle::Now& now,
-                                                                      session::Output& out) {
+  mailbox.put(post_, [this, topic, received, convert = std::move(convert)](const vehicle::Now& now,
+                                                                           session::Output& out) {
     const Converted converted = convert();
     if (const auto* refusal = std::get_if<std::string>(&converted)) {
       session_.countRefusedCommands(now, 1, *refusal);
@@ -135,33 +127,16 @@ void CommandInput::command(const char* topic, const ros::Time& receipt, Convert 
 
 void CommandInput::refuse(const char* topic, std::string refusal) {
   ++refusals_;
-  post(refused_,
-       [this, topic, refusal = std::move(refusal)](const vehicle::Now& now, session::Output&) {
-         session_.countRefusedCommands(now, refusals_.exchange(0), refusal);
-         warn(topic, refusal, now);
-       });
+  refused_.put(post_, [this, topic, refusal = std::move(refusal)](const vehicle::Now& now,
+                                                                  session::Output&) {
+    session_.countRefusedCommands(now, refusals_.exchange(0), refusal);
+    warn(topic, refusal, now);
+  });
 }
 
 void CommandInput::warn(const char* topic, const std::string& refusal, const vehicle::Now& now) {
   if (!logs_[topic].passes(now.steady)) return;
   ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
-}
-
-void CommandInput::post(Mailbox& mailbox, SessionTask task) {
-  if (!mailbox.put(std::move(task))) return;
-  post_([&mailbox](const vehicle::Now& now, session::Output& out) { mailbox.take()(now, out); });
-}
-
-bool CommandInput::Mailbox::put(SessionTask task) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const bool empty = !newest_;
-  newest_ = std::move(task);
-  return empty;
-}
-
-SessionTask CommandInput::Mailbox::take() {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(newest_, nullptr);
 }
 
 }  // namespace frontseat_driver::ros_layer

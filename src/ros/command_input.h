@@ -14,13 +14,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "command_convert.h"
 #include "frontseat_driver/session/nmea_session.h"
 #include "latched_messages.h"
+#include "mailbox.h"
 #include "parameters.h"
 #include "throttle.h"
 #include "vehicle_publisher.h"
@@ -46,17 +46,7 @@ class CommandInput {
  private:
   using Convert = std::function<Converted()>;
 
-  /// The newest message that the session's thread has not taken yet.
-  class Mailbox {
-   public:
-    /// True if nobody has been told to come for it.
-    bool put(SessionTask task);
-    SessionTask take();
-
-   private:
-    std::mutex mutex_;
-    SessionTask newest_;
-  };
+  using Mailbox = ros_layer::Mailbox<SessionTask>;
 
   template <class Message>
   ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic,
@@ -73,7 +63,6 @@ class CommandInput {
   void takeConverted(const char* topic, const ros::Time& receipt, const Converted& converted);
   void command(const char* topic, const ros::Time& receipt, Convert convert);
   void refuse(const char* topic, std::string refusal);
-  void post(Mailbox& mailbox, SessionTask task);
   void warn(const char* topic, const std::string& refusal, const vehicle::Now& now);
 
   const std::string name_;

@@ -3,13 +3,13 @@
 #include <blueye/control.pb.h>
 #include <ros/console.h>
 
-#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "blueye/outside.h"
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
-#include "convert.h"
+#include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -19,13 +19,7 @@ using namespace std::chrono_literals;
 using session::BlueyeOutput;
 
 constexpr std::uint32_t kNewestOnly = 1;
-constexpr auto kWarnAtMostEvery = 5s;
 constexpr auto kPilotAtMostEvery = 1s;
-
-// How long a message waited in this process, other nodelets' callbacks before it.
-std::chrono::nanoseconds waited(const ros::Time& receipt) {
-  return std::max<std::chrono::nanoseconds>(0ns, timeFrom(receipt, ros::Time::now()));
-}
 
 }  // namespace
 
@@ -104,29 +98,14 @@ void Input::subscribe(const char* topic, Function take) {
             takeCounted(now, topic, [&] { return latched; });
           });
         }
-        const auto received = std::chrono::steady_clock::now() - waited(event.getReceiptTime());
-        post(mailbox, [this, take, topic, received, message = event.getConstMessage()](
-                          const vehicle::Now& now, BlueyeOutput& out) {
+        const auto received = receivedAt(event.getReceiptTime());
+        mailbox.put(post_, [this, take, topic, received, message = event.getConstMessage()](
+                               const vehicle::Now& now, BlueyeOutput& out) {
           takeCounted(now, topic, [&] { return take(now, *message, received, out); });
         });
       });
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   subscribers_.push_back(node_.subscribe(options));
-}
-
-void Input::post(Mailbox& mailbox, Task task) {
-  {
-    const std::lock_guard<std::mutex> lock(mailbox.mutex);
-    if (std::exchange(mailbox.newest, std::move(task))) return;  // somebody is on the way already
-  }
-  post_([&mailbox](const vehicle::Now& now, BlueyeOutput& out) {
-    Task newest;
-    {
-      const std::lock_guard<std::mutex> lock(mailbox.mutex);
-      newest = std::exchange(mailbox.newest, nullptr);
-    }
-    newest(now, out);
-  });
 }
 
 // The session counts what it refuses itself.
@@ -140,9 +119,7 @@ void Input::takeCounted(const vehicle::Now& now, const char* topic, Take take) {
 }
 
 void Input::warn(const vehicle::Now& now, const char* topic, const std::string& refusal) {
-  vehicle::SteadyTime& next_warning = next_warnings_[topic];
-  if (now.steady < next_warning) return;
-  next_warning = now.steady + kWarnAtMostEvery;
+  if (!logs_[topic].passes(now.steady)) return;
   ROS_WARN("%s: refused %s: %s", name_.c_str(), topic, refusal.c_str());
 }
 
@@ -179,8 +156,7 @@ std::string Input::level(const vehicle::Now& now, const char* type, double value
   wanted.shows = [value](std::string_view payload) {
     constexpr double kClose = 0.02;
     pb::LightsTel told;  // GuestPortLightsTel is the same
-    return told.ParseFromArray(payload.data(), static_cast<int>(payload.size())) &&
-           std::abs(told.lights().value() - value) < kClose;
+    return protocol::parse(payload, told) && std::abs(told.lights().value() - value) < kClose;
   };
   session_.control(now, std::move(wanted), out);
   return {};

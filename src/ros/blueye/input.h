@@ -13,7 +13,6 @@
 
 #include <list>
 #include <map>
-#include <mutex>
 #include <string>
 #include <variant>
 #include <vector>
@@ -21,6 +20,8 @@
 #include "blueye/parameters.h"
 #include "blueye/post.h"
 #include "latched_messages.h"
+#include "mailbox.h"
+#include "throttle.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -37,15 +38,10 @@ class Input {
   void close() { subscribers_.clear(); }
 
  private:
-  /// The newest task that the session's thread has not taken yet.
-  struct Mailbox {
-    std::mutex mutex;
-    Task newest;
-  };
+  using Mailbox = ros_layer::Mailbox<Task>;
 
   template <class Message, class Function>
   void subscribe(const char* topic, Function take);
-  void post(Mailbox& mailbox, Task task);
 
   /// A control message ready to be sent.
   struct Wanted {
@@ -85,9 +81,9 @@ class Input {
   session::BlueyeSession& session_;
   const protocol::BlueyeCatalogue& catalogue_;
   const Post post_;
-  std::list<Mailbox> mailboxes_;  ///< one for each topic
-  Mailbox* motion_ = nullptr;     ///< of cmd_vel and cmd_motion together
-  std::map<std::string, vehicle::SteadyTime> next_warnings_;  ///< by topic
+  std::list<Mailbox> mailboxes_;          ///< one for each topic
+  Mailbox* motion_ = nullptr;             ///< of cmd_vel and cmd_motion together
+  std::map<std::string, Throttle> logs_;  ///< by topic
   vehicle::SteadyTime next_pilot_{};
   LatchedMessages latched_{publishersNow()};  ///< asked for before anything is subscribed to
   std::vector<ros::Subscriber> subscribers_;
