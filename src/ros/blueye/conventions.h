@@ -28,6 +28,10 @@ struct Conventions {
   double water_density_kg_m3 = 1025.0;  ///< what the drone computes its depth with
 };
 
+/// Densities that a drone can be told: no water is outside. The Dead Sea has 1240.
+constexpr double kLightestWater_kg_m3 = 900.0;
+constexpr double kHeaviestWater_kg_m3 = 1300.0;
+
 /// Standard deviations, for the covariances.
 struct Deviations {
   double depth_m = 0.1;

@@ -85,7 +85,8 @@ session::BlueyeOptions readSession(PrivateParameters& in, const XmlRpc::XmlRpcVa
   out.control_timeout = in.duration("control_timeout", out.control_timeout, above(0, 60, "s"));
   out.rates_hz = readRates(in, values);
   if (in.has("water_density")) {
-    out.water_density_kg_m3 = in.number("water_density", 1025.0, between(900.0, 1100.0, "kg/m^3"));
+    out.water_density_kg_m3 = in.number(
+        "water_density", 1025.0, between(kLightestWater_kg_m3, kHeaviestWater_kg_m3, "kg/m^3"));
   }
   using Mounting = session::PingerMounting;
   out.pinger_mounting = in.choice("pinger_mounting", out.pinger_mounting,

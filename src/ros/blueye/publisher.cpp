@@ -8,28 +8,23 @@
 
 #include "blueye/topics.h"
 #include "convert.h"
+#include "frontseat_driver/protocol/blueye_parse.h"
+#include "transforms.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
 using namespace std::chrono_literals;
+using protocol::parse;
 
 constexpr std::uint32_t kQueue = 100;
 // A second of everything, sonar images among it.
 constexpr std::uint32_t kRecordQueue = 2000;
 // Battery details hold more than the battery message: the latter is left out while they come.
 constexpr auto kDetailsFresh = 5s;
-// kg/m^3; a drone takes no other density, whatever is sent. The Dead Sea has 1240.
-constexpr double kLightestWater = 900.0;
-constexpr double kHeaviestWater = 1300.0;
 
 bool wanted(const ros::Publisher& publisher) { return publisher.getNumSubscribers() > 0; }
-
-template <class Message>
-bool parse(std::string_view payload, Message& message) {
-  return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
-}
 
 std::string nameOf(const char* type) { return std::string{"blueye.protocol."} + type; }
 
@@ -41,17 +36,6 @@ void publishRaw(const ros::Publisher& publisher, const vehicle::Now& now, std::s
   message->type = std::string{type};
   message->data.assign(payload.begin(), payload.end());
   publisher.publish(boost::shared_ptr<const BlueyeMessage>{message});
-}
-
-geometry_msgs::TransformStamped halfTurn(const ros::Time& stamp, const std::string& parent,
-                                         const std::string& child, double x, double y) {
-  geometry_msgs::TransformStamped out;
-  out.header.stamp = stamp;
-  out.header.frame_id = parent;
-  out.child_frame_id = child;
-  out.transform.rotation.x = x;
-  out.transform.rotation.y = y;
-  return out;
 }
 
 }  // namespace
@@ -70,11 +54,9 @@ Publisher::Publisher(ros::NodeHandle node, const Options& options,
   addSensors();
   addVehicle();
   if (!options_.publish_frd_frames) return;
-  const ros::Time now = ros::Time::now();
   const NavigationOptions& names = options_.navigation;
-  static_transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      halfTurn(now, names.base_frame, names.base_frame + "_frd", 1.0, 0.0),
-      halfTurn(now, names.odom_frame, names.odom_frame + "_ned", M_SQRT1_2, M_SQRT1_2)});
+  const auto frames = frdFrames(ros::Time::now(), names.base_frame, names.odom_frame);
+  static_transforms_.sendTransform({frames.begin(), frames.end()});
 }
 
 bool Publisher::publish(const vehicle::Now& now, std::string_view type, std::string_view payload) {
@@ -93,8 +75,9 @@ void Publisher::publishControl(const vehicle::Now& now, std::string_view type,
   pb::WaterDensityCtrl told;
   if (!parse(payload, told)) return;
   const double density_kg_m3 = told.density().value();
-  const bool is_water = density_kg_m3 >= kLightestWater && density_kg_m3 <= kHeaviestWater;
-  if (is_water) navigation_.setWaterDensity(density_kg_m3);
+  // A drone takes no other, whatever is sent.
+  if (density_kg_m3 >= kLightestWater_kg_m3 && density_kg_m3 <= kHeaviestWater_kg_m3)
+    navigation_.setWaterDensity(density_kg_m3);
 }
 
 std::vector<std::string> Publisher::types() const {

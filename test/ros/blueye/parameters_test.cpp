@@ -80,7 +80,7 @@ struct Limits {
 };
 
 const Limits kLimits[] = {
-    {"water_density", 900.0, 1100.0, 899.0, 1101.0},
+    {"water_density", 900.0, 1300.0, 899.0, 1301.0},
     {"add_declination", -3.1415, 3.1415, -3.1417, 3.1417},
     {"servo_min", -3.1415, 0.78, -3.1417, 3.1417},
     {"servo_max", -0.78, 3.1415, -3.1417, 3.1417},
