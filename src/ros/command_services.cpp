@@ -1,7 +1,5 @@
 #include "command_services.h"
 
-#include <future>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -17,11 +15,6 @@ using session::Answer;
 
 // The session answers by its deadline; this is for its thread being held up.
 constexpr auto kGrace = 50ms;
-// How soon a waiting call notices that the driver is stopping.
-constexpr auto kLook = 20ms;
-
-constexpr const char* kStopping = "the driver is stopping";
-constexpr const char* kHeldUp = "the driver is held up; it is done as soon as that goes on";
 
 Answer done(const char* message) { return {true, message}; }
 
@@ -37,20 +30,21 @@ CommandServices::CommandServices(ros::NodeHandle node, const Parameters& paramet
       max_command_age_(parameters.max_command_age),
       session_(session),
       publisher_(publisher),
-      post_(std::move(post)) {
-  advertise<Abort>(node, topics::kAbort, urgent_, [this](AbortRequest& abort) {
+      services_(std::move(post)) {
+  services_.advertise<Abort>(node, topics::kAbort, Urgency::Urgent, [this](AbortRequest& abort) {
     return request(session::AbortRequest{abort.reason, abort.with_errors != 0});
   });
-  advertise<ModifyBehavior>(
-      node, topics::kModifyBehavior, threads_,
+  services_.advertise<ModifyBehavior>(
+      node, topics::kModifyBehavior, Urgency::Usual,
       [this](ModifyBehaviorRequest& modify) { return modifyBehavior(modify.behavior); });
-  advertise<SetLogging>(node, topics::kSetLogging, threads_, [this](SetLoggingRequest& log) {
-    return request(session::LogSwitch{log.sentence, log.enable != 0});
-  });
-  advertise<SetDatum>(node, topics::kSetDatum, threads_,
-                      [this](SetDatumRequest& datum) { return setDatum(datum); });
-  advertise<std_srvs::SetBool>(
-      node, topics::kEnableCommands, urgent_, [this](std_srvs::SetBoolRequest& gate) {
+  services_.advertise<SetLogging>(
+      node, topics::kSetLogging, Urgency::Usual, [this](SetLoggingRequest& log) {
+        return request(session::LogSwitch{log.sentence, log.enable != 0});
+      });
+  services_.advertise<SetDatum>(node, topics::kSetDatum, Urgency::Usual,
+                                [this](SetDatumRequest& datum) { return setDatum(datum); });
+  services_.advertise<std_srvs::SetBool>(
+      node, topics::kEnableCommands, Urgency::Urgent, [this](std_srvs::SetBoolRequest& gate) {
         const bool open = gate.data != 0;
         return ask(
             [this, open](const auto& now, auto& out, const auto& respond) {
@@ -59,68 +53,24 @@ CommandServices::CommandServices(ros::NodeHandle node, const Parameters& paramet
             },
             open ? WhenLate::Drop : WhenLate::DoAnyway);
       });
-  advertise<std_srvs::Trigger>(node, topics::kStop, urgent_, [this](std_srvs::TriggerRequest&) {
-    return ask(
-        [this](const auto& now, auto& out, const auto& respond) {
-          session_.stop(now, out);
-          respond(done("commanding has ended"));
-        },
-        WhenLate::DoAnyway);
-  });
+  services_.advertise<std_srvs::Trigger>(
+      node, topics::kStop, Urgency::Urgent, [this](std_srvs::TriggerRequest&) {
+        return ask(
+            [this](const auto& now, auto& out, const auto& respond) {
+              session_.stop(now, out);
+              respond(done("commanding has ended"));
+            },
+            WhenLate::DoAnyway);
+      });
   if (!parameters.allow_raw_sentences) return;
-  advertise<SendSentence>(node, topics::kSendSentence, threads_, [this](SendSentenceRequest& raw) {
-    return request(session::RawSentence{raw.sentence});
-  });
+  services_.advertise<SendSentence>(
+      node, topics::kSendSentence, Urgency::Usual,
+      [this](SendSentenceRequest& raw) { return request(session::RawSentence{raw.sentence}); });
 }
 
-void CommandServices::close() {
-  closing_ = true;
-  threads_.close();
-  urgent_.close();
-  servers_.clear();
-}
-
-template <class Service>
-void CommandServices::advertise(ros::NodeHandle& node, const char* name, ServiceThreads& threads,
-                                std::function<Answer(typename Service::Request&)> serve) {
-  ros::AdvertiseServiceOptions options = ros::AdvertiseServiceOptions::create<Service>(
-      name,
-      [serve = std::move(serve)](typename Service::Request& request,
-                                 typename Service::Response& response) {
-        const Answer answer = serve(request);
-        response.success = answer.success;
-        response.message = answer.message;
-        return true;
-      },
-      ros::VoidConstPtr{}, &threads);
-  servers_.push_back(node.advertiseService(options));
-}
-
-Answer CommandServices::ask(Ask task, WhenLate when_late) const {
-  // Shared with the task, which may come to run after the wait has ended.
-  const auto promise = std::make_shared<std::promise<Answer>>();
-  std::future<Answer> answer = promise->get_future();
-  const auto called = std::chrono::steady_clock::now();
-  const auto deadline = called + timeout_ + kGrace;
-  // What the caller has been told is late must not be done after all.
-  const auto expiry = called + timeout_;
-  post_([task = std::move(task), promise, expiry, when_late](const vehicle::Now& now,
-                                                             session::Output& out) {
-    if (when_late == WhenLate::Drop && std::chrono::steady_clock::now() >= expiry) {
-      return promise->set_value({false, "the driver was held up; nothing was done"});
-    }
-    task(now, out, [promise](const Answer& given) { promise->set_value(given); });
-  });
-  while (answer.wait_for(kLook) != std::future_status::ready) {
-    if (closing_) return {false, kStopping};
-    if (std::chrono::steady_clock::now() < deadline) continue;
-    return {false, when_late == WhenLate::Drop ? "the driver did not answer" : kHeldUp};
-  }
-  try {
-    return answer.get();
-  } catch (const std::future_error&) {  // the task went with the driver's thread
-    return {false, kStopping};
-  }
+Answer CommandServices::ask(Services::Ask work, WhenLate when_late) const {
+  return services_.ask(std::move(work),
+                       {timeout_, timeout_ + kGrace, "the driver did not answer", when_late});
 }
 
 Answer CommandServices::request(session::Request wanted) const {

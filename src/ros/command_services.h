@@ -6,20 +6,16 @@
 #include <frontseat_driver/SetDatum.h>
 #include <frontseat_driver/SetLogging.h>
 #include <ros/node_handle.h>
-#include <ros/service_server.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
 #include <chrono>
-#include <functional>
-#include <vector>
 
 #include "command_input.h"
 #include "frontseat_driver/session/nmea_session.h"
 #include "parameters.h"
-#include "service_threads.h"
 #include "vehicle_publisher.h"
+#include "waiting_services.h"
 
 namespace frontseat_driver::ros_layer {
 
@@ -32,19 +28,13 @@ class CommandServices {
                   VehiclePublisher& publisher, PostTask post);
 
   /// Answers the calls under way at once and takes no more. Tasks posted before may still run.
-  void close();
+  void close() { services_.close(); }
 
  private:
   using Answer = session::Answer;
+  using Services = WaitingServices<Answer, session::Output>;
 
-  /// Hands a task its way to answer.
-  using Ask = std::function<void(const vehicle::Now&, session::Output&, session::Respond)>;
-
-  template <class Service>
-  void advertise(ros::NodeHandle& node, const char* name, ServiceThreads& threads,
-                 std::function<Answer(typename Service::Request&)> serve);
-
-  Answer ask(Ask task, WhenLate when_late = WhenLate::Drop) const;
+  Answer ask(Services::Ask work, WhenLate when_late = WhenLate::Drop) const;
   Answer request(session::Request wanted) const;
   Answer modifyBehavior(const Behavior& behavior) const;
   Answer setDatum(const SetDatumRequest& datum) const;
@@ -53,11 +43,7 @@ class CommandServices {
   const std::chrono::nanoseconds max_command_age_;
   session::NmeaSession& session_;
   VehiclePublisher& publisher_;
-  const PostTask post_;
-  std::atomic<bool> closing_{false};
-  ServiceThreads threads_;
-  ServiceThreads urgent_;  ///< a stop does not wait for calls that wait for the vehicle
-  std::vector<ros::ServiceServer> servers_;
+  Services services_;
 };
 
 }  // namespace frontseat_driver::ros_layer

@@ -16,7 +16,8 @@ namespace frontseat_driver::ros_layer {
 enum class WhenLate { Drop, DoAnyway };
 
 /// Runs service calls, each on a thread of its own while it lasts: a call that waits for the
-/// vehicle keeps nobody else waiting. No thread exists while no call is under way.
+/// vehicle keeps nobody else waiting. No thread exists while no call is under way. If none can be
+/// started, the thread that brings the call runs it.
 class ServiceThreads : public ros::CallbackQueueInterface {
  public:
   /// More calls than this at once wait for one of them to end.
@@ -39,7 +40,10 @@ class ServiceThreads : public ros::CallbackQueueInterface {
     std::uint64_t owner;
   };
 
-  void work();
+  // All with the mutex locked; it is unlocked during a call.
+  std::vector<std::thread> takeEnded();
+  void startThread();
+  void serve(std::unique_lock<std::mutex>& lock);
 
   std::mutex mutex_;
   bool closed_ = false;

@@ -15,34 +15,26 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <future>
 #include <memory>
 #include <utility>
 
 #include "blueye/mission_json.h"
+#include "blueye/outside.h"
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
+#include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
 using namespace std::chrono_literals;
+using protocol::parse;
 using session::BlueyeOutput;
 
 // The session answers by its deadlines; this is for its thread being held up.
 constexpr auto kGrace = 200ms;
-// How soon a waiting call notices that the driver is stopping.
-constexpr auto kLook = 20ms;
 constexpr auto kControlShown = 2s;
-
-constexpr const char* kStopping = "the driver is stopping";
-constexpr const char* kHeldUp = "the driver is held up; it is done as soon as that goes on";
-
-template <class Message>
-bool parse(std::string_view payload, Message& message) {
-  return message.ParseFromArray(payload.data(), static_cast<int>(payload.size()));
-}
 
 std::string nameOf(const std::string& type) { return protocol::BlueyeCatalogue::fullName(type); }
 
@@ -63,20 +55,6 @@ std::function<bool(std::string_view)> calibrating(bool wanted) {
   };
 }
 
-template <class Response>
-auto fillJson(Response& response, const std::string& type, const std::string& json, int)
-    -> decltype(response.type, void()) {
-  response.type = type;
-  response.json = json;
-}
-template <class Response>
-auto fillJson(Response& response, const std::string&, const std::string& json, long)
-    -> decltype(response.json, void()) {
-  response.json = json;
-}
-template <class Response>
-void fillJson(Response&, const std::string&, const std::string&, ...) {}
-
 }  // namespace
 
 Services::Services(ros::NodeHandle node, const Parameters& parameters,
@@ -88,7 +66,7 @@ Services::Services(ros::NodeHandle node, const Parameters& parameters,
       session_(session),
       publisher_(publisher),
       catalogue_(catalogue),
-      post_(std::move(post)) {
+      services_(std::move(post)) {
   addAuthority();
   addControllers();
   addTriggers();
@@ -97,59 +75,19 @@ Services::Services(ros::NodeHandle node, const Parameters& parameters,
   addPassthrough();
 }
 
-void Services::close() {
-  closing_ = true;
-  threads_.close();
-  urgent_.close();
-  servers_.clear();
-}
-
 template <class Service>
 void Services::advertise(const char* name, std::function<Answer(typename Service::Request&)> serve,
-                         bool urgent) {
-  ros::AdvertiseServiceOptions options = ros::AdvertiseServiceOptions::create<Service>(
-      name,
-      [serve = std::move(serve)](typename Service::Request& request,
-                                 typename Service::Response& response) {
-        const Answer answer = serve(request);
-        response.success = answer.success;
-        response.message = answer.message;
-        fillJson(response, answer.type, answer.json, 0);
-        return true;
-      },
-      ros::VoidConstPtr{}, urgent ? &urgent_ : &threads_);
-  servers_.push_back(node_.advertiseService(options));
+                         Urgency urgency, Waiting::Fill<Service> fill) {
+  services_.advertise<Service>(node_, name, urgency, std::move(serve), fill);
 }
 
-Services::Answer Services::ask(Ask task) const { return ask(std::move(task), timeout_); }
+Services::Answer Services::ask(Waiting::Ask work) const { return ask(std::move(work), timeout_); }
 
-Services::Answer Services::ask(Ask task, std::chrono::milliseconds timeout,
+Services::Answer Services::ask(Waiting::Ask work, std::chrono::milliseconds timeout,
                                WhenLate when_late) const {
-  // Shared with the task, which may come to run after the wait has ended.
-  const auto promise = std::make_shared<std::promise<Answer>>();
-  std::future<Answer> answer = promise->get_future();
-  const auto expiry = std::chrono::steady_clock::now() + timeout;
-  // What the caller has been told is late must not be done after all.
-  post_([task = std::move(task), promise, expiry, when_late](const vehicle::Now& now,
-                                                             BlueyeOutput& out) {
-    if (when_late == WhenLate::Drop && std::chrono::steady_clock::now() >= expiry) {
-      return promise->set_value({false, "the driver was held up; nothing was done", {}, {}});
-    }
-    task(now, out, [promise](const Answer& given) { promise->set_value(given); });
-  });
   // Requests wait for those before them, so the drone may have several time limits to keep.
-  const auto deadline = expiry + timeout + kGrace;
-  while (answer.wait_for(kLook) != std::future_status::ready) {
-    if (closing_) return {false, kStopping, {}, {}};
-    if (std::chrono::steady_clock::now() < deadline) continue;
-    const bool dropped = when_late == WhenLate::Drop;
-    return {false, dropped ? "the drone did not answer in time" : kHeldUp, {}, {}};
-  }
-  try {
-    return answer.get();
-  } catch (const std::future_error&) {  // the task went with the driver's thread
-    return {false, kStopping, {}, {}};
-  }
+  return services_.ask(std::move(work), {timeout, 2 * timeout + kGrace,
+                                         "the drone did not answer in time", when_late});
 }
 
 // --- Who commands ---
@@ -165,7 +103,7 @@ void Services::addAuthority() {
             },
             timeout_, WhenLate::DoAnyway);
       },
-      true);
+      Urgency::Urgent);
   advertise<Abort>(
       topics::kAbort,
       [this](auto&) {
@@ -174,7 +112,7 @@ void Services::addAuthority() {
           respond({done.success, done.message, {}, {}});
         });
       },
-      true);
+      Urgency::Urgent);
   advertise<std_srvs::SetBool>(
       topics::kEnableCommands,
       [this](std_srvs::SetBoolRequest& gate) {
@@ -188,7 +126,7 @@ void Services::addAuthority() {
             },
             timeout_, open ? WhenLate::Drop : WhenLate::DoAnyway);
       },
-      true);
+      Urgency::Urgent);
   const auto relay = [](const Respond& respond) {
     return [respond](const session::BlueyeSession::Answer& given) {
       respond({given.success, given.message, {}, {}});
@@ -314,14 +252,17 @@ void Services::addTriggers() {
 void Services::addMissions() {
   advertise<LoadMission>(topics::kMissionLoad,
                          [this](LoadMissionRequest& wanted) { return loadMission(wanted.json); });
-  advertise<GetMission>(topics::kMissionGet, [this](auto&) {
-    Answer answer = request(nameOf("GetMissionReq"), {}, timeout_);
-    if (!answer.success) return answer;
-    pb::GetMissionRep reply;
-    if (!parse(answer.json, reply)) return Answer{false, "the reply cannot be read", {}, {}};
-    answer.json = catalogue_.toJson("Mission", reply.mission().SerializeAsString()).text;
-    return answer;
-  });
+  advertise<GetMission>(
+      topics::kMissionGet,
+      [this](auto&) {
+        Answer answer = request(nameOf("GetMissionReq"), {}, timeout_);
+        if (!answer.success) return answer;
+        pb::GetMissionRep reply;
+        if (!parse(answer.json, reply)) return Answer{false, "the reply cannot be read", {}, {}};
+        answer.json = catalogue_.toJson("Mission", reply.mission().SerializeAsString()).text;
+        return answer;
+      },
+      Urgency::Usual, [](auto& response, const Answer& answer) { response.json = answer.json; });
 }
 
 Services::Answer Services::loadMission(const std::string& text) const {
@@ -365,12 +306,9 @@ Services::Answer Services::loadMission(const std::string& text) const {
 void Services::addSettings() {
   advertise<SetFloat>(topics::kSetWaterDensity, [this](SetFloatRequest& wanted) {
     const double density_kg_m3 = wanted.data;
-    if (!(density_kg_m3 >= 900.0 && density_kg_m3 <= 1100.0)) {
-      return Answer{false,
-                    "data is " + std::to_string(density_kg_m3) + "; 900 to 1100 kg/m^3 is accepted",
-                    {},
-                    {}};
-    }
+    const std::string refusal =
+        outside("data", density_kg_m3, kLightestWater_kg_m3, kHeaviestWater_kg_m3);
+    if (!refusal.empty()) return Answer{false, refusal, {}, {}};
     pb::WaterDensityCtrl message;
     message.mutable_density()->set_value(static_cast<float>(density_kg_m3));
     Answer answer = control(message.GetTypeName(), message.SerializeAsString(), nullptr, {}, false);
@@ -471,19 +409,21 @@ Services::Answer Services::json(Answer reply) const {
 }
 
 void Services::addPassthrough() {
-  advertise<BlueyeRequest>(topics::kRequest, [this](BlueyeRequestRequest& wanted) {
-    const auto bytes = catalogue_.fromJson(wanted.type, wanted.json);
-    if (!bytes.ok) return Answer{false, bytes.text, {}, {}};
-    const bool in_range = wanted.timeout >= 0.0 && wanted.timeout <= 60.0;
-    if (!in_range) {
-      return Answer{false,
-                    "timeout is " + std::to_string(wanted.timeout) + "; 0 to 60 s is accepted",
-                    {},
-                    {}};
-    }
-    const auto given = std::chrono::milliseconds{static_cast<int>(wanted.timeout * 1000.0)};
-    return json(request(nameOf(wanted.type), bytes.text, given > 0ms ? given : timeout_));
-  });
+  advertise<BlueyeRequest>(
+      topics::kRequest,
+      [this](BlueyeRequestRequest& wanted) {
+        const auto bytes = catalogue_.fromJson(wanted.type, wanted.json);
+        if (!bytes.ok) return Answer{false, bytes.text, {}, {}};
+        const std::string refusal = outside("timeout", wanted.timeout, 0.0, 60.0);
+        if (!refusal.empty()) return Answer{false, refusal, {}, {}};
+        const auto given = std::chrono::milliseconds{static_cast<int>(wanted.timeout * 1000.0)};
+        return json(request(nameOf(wanted.type), bytes.text, given > 0ms ? given : timeout_));
+      },
+      Urgency::Usual,
+      [](auto& response, const Answer& answer) {
+        response.type = answer.type;
+        response.json = answer.json;
+      });
   advertise<BlueyeControl>(topics::kSendControl, [this](BlueyeControlRequest& wanted) {
     const auto bytes = catalogue_.fromJson(wanted.type, wanted.json);
     if (!bytes.ok) return Answer{false, bytes.text, {}, {}};

@@ -1,17 +1,14 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <ros/service_server.h>
 
-#include <atomic>
 #include <chrono>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "blueye/parameters.h"
 #include "blueye/post.h"
-#include "service_threads.h"
+#include "waiting_services.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -24,7 +21,7 @@ class Services {
            const Publisher& publisher, const protocol::BlueyeCatalogue& catalogue, Post post);
 
   /// Answers the calls under way at once and takes no more. Tasks posted before may still run.
-  void close();
+  void close() { services_.close(); }
 
  private:
   /// What came back; `type` and `json` for services that return a message.
@@ -34,16 +31,16 @@ class Services {
     std::string type;
     std::string json;
   };
-  using Respond = std::function<void(const Answer&)>;
-  using Ask = std::function<void(const vehicle::Now&, session::BlueyeOutput&, const Respond&)>;
+  using Waiting = WaitingServices<Answer, session::BlueyeOutput>;
+  using Respond = Waiting::Respond;
   using Shows = std::function<bool(std::string_view payload)>;
 
   template <class Service>
   void advertise(const char* name, std::function<Answer(typename Service::Request&)> serve,
-                 bool urgent = false);
-  Answer ask(Ask task, std::chrono::milliseconds timeout,
+                 Urgency urgency = Urgency::Usual, Waiting::Fill<Service> fill = nullptr);
+  Answer ask(Waiting::Ask work, std::chrono::milliseconds timeout,
              WhenLate when_late = WhenLate::Drop) const;
-  Answer ask(Ask task) const;
+  Answer ask(Waiting::Ask work) const;
 
   void addAuthority();
   void addControllers();
@@ -68,11 +65,7 @@ class Services {
   session::BlueyeSession& session_;
   const Publisher& publisher_;
   const protocol::BlueyeCatalogue& catalogue_;
-  const Post post_;
-  std::atomic<bool> closing_{false};
-  ServiceThreads threads_;
-  ServiceThreads urgent_;  ///< a stop does not wait for calls that wait for the drone
-  std::vector<ros::ServiceServer> servers_;
+  Waiting services_;
 };
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer
