@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <utility>
+#include <string>
 
+#include "check.h"
 #include "convert.h"
 
 namespace frontseat_driver::ros_layer {
@@ -18,49 +19,22 @@ constexpr double kMostDepth_m = 6000.0;
 constexpr double kMostRpm = 10000.0;
 constexpr double kMostSpeed_m_s = 10.0;
 constexpr double kMostYawRate_rad_s = M_PI;
-constexpr double kMostYaw_rad = 1e6;  // more is no angle that somebody meant
 
-double degrees(double angle_rad) { return angle_rad * 180.0 / M_PI; }
-
-/// Collects the first thing that is wrong with a command.
-class Check {
- public:
-  void within(const char* field, double value, double low, double high) {
-    if (value >= low && value <= high) return;  // false for NaN
-    char text[160];
-    std::snprintf(text, sizeof text, "%s is %.10g; %.10g..%.10g is accepted", field, value, low,
-                  high);
-    refuse(text);
+/// From the vehicle's north, [0, 360).
+double heading_deg(const char* field, double yaw_rad, NorthOffset north_offset_deg, Check& check) {
+  check.angle_rad(field, yaw_rad);
+  if (!north_offset_deg) {
+    check.refuse(std::string{field} +
+                 " is a heading, and no position of the vehicle is known yet to tell how its grid "
+                 "north lies");
   }
+  return wrapHeading_deg(90.0 - degrees(yaw_rad) - north_offset_deg.value_or(0.0));
+}
 
-  void finite(const char* field, double value) {
-    if (std::isfinite(value)) return;
-    refuse(std::string{field} + " is " + std::to_string(value) + "; a finite number is accepted");
-  }
-
-  void refuse(std::string text) {
-    if (refusal_.empty()) refusal_ = std::move(text);
-  }
-
-  /// From the vehicle's north, [0, 360).
-  double heading_deg(const std::string& field, double yaw_rad, NorthOffset north_offset_deg) {
-    finite(field.c_str(), yaw_rad);
-    within(field.c_str(), yaw_rad, -kMostYaw_rad, kMostYaw_rad);
-    if (!north_offset_deg) {
-      refuse(field + " is a heading, and no position of the vehicle is known yet to tell how its " +
-             "grid north lies");
-    }
-    return wrapHeading_deg(90.0 - degrees(yaw_rad) - north_offset_deg.value_or(0.0));
-  }
-
-  Converted result(vehicle::Command command) const {
-    if (refusal_.empty()) return command;
-    return refusal_;
-  }
-
- private:
-  std::string refusal_;
-};
+Converted resultOf(const Check& check, vehicle::Command command) {
+  if (check.refusal().empty()) return command;
+  return check.refusal();
+}
 
 void convertHorizontal(const Behavior& behavior, NorthOffset north_offset_deg,
                        BehaviorCommand& command, Check& check) {
@@ -68,16 +42,17 @@ void convertHorizontal(const Behavior& behavior, NorthOffset north_offset_deg,
     case Behavior::HORIZONTAL_NONE:
       return check.finite("horizontal", behavior.horizontal);
     case Behavior::HORIZONTAL_HEADING:
-      command.horizontal = {BehaviorCommand::Horizontal::Heading,
-                            check.heading_deg("horizontal", behavior.horizontal, north_offset_deg)};
+      command.horizontal = {
+          BehaviorCommand::Horizontal::Heading,
+          heading_deg("horizontal", behavior.horizontal, north_offset_deg, check)};
       return;
     case Behavior::HORIZONTAL_RUDDER:
       check.within("horizontal", behavior.horizontal, -kRightAngle, kRightAngle);
       command.horizontal = {BehaviorCommand::Horizontal::Rudder, degrees(behavior.horizontal)};
       return;
     default:
-      check.refuse("horizontal_mode is " + std::to_string(behavior.horizontal_mode) +
-                   "; 0 (none), 1 (heading) or 2 (rudder) is accepted");
+      check.oneOf("horizontal_mode", behavior.horizontal_mode, 0, 2,
+                  "0 (none), 1 (heading) or 2 (rudder)");
   }
 }
 
@@ -103,8 +78,8 @@ void convertVertical(const Behavior& behavior, BehaviorCommand& command, Check& 
       command.vertical = {BehaviorCommand::Vertical::Elevator, degrees(value)};
       return;
     default:
-      check.refuse("vertical_mode is " + std::to_string(behavior.vertical_mode) +
-                   "; 0 (none), 1 (depth), 2 (altitude), 3 (pitch) or 4 (elevator) is accepted");
+      check.oneOf("vertical_mode", behavior.vertical_mode, 0, 4,
+                  "0 (none), 1 (depth), 2 (altitude), 3 (pitch) or 4 (elevator)");
   }
 }
 
@@ -121,8 +96,7 @@ void convertSpeed(const Behavior& behavior, BehaviorCommand& command, Check& che
       command.speed = {BehaviorCommand::Speed::MetresPerSecond, behavior.speed};
       return;
     default:
-      check.refuse("speed_mode is " + std::to_string(behavior.speed_mode) +
-                   "; 0 (none), 1 (rpm) or 2 (speed) is accepted");
+      check.oneOf("speed_mode", behavior.speed_mode, 0, 2, "0 (none), 1 (rpm) or 2 (speed)");
   }
 }
 
@@ -134,7 +108,7 @@ Converted toCommand(const Behavior& behavior, NorthOffset north_offset_deg) {
   convertHorizontal(behavior, north_offset_deg, command, check);
   convertVertical(behavior, command, check);
   convertSpeed(behavior, command, check);
-  return check.result(command);
+  return resultOf(check, command);
 }
 
 std::string tooOld(const Behavior& behavior, const ros::Time& now,
@@ -155,21 +129,21 @@ Converted toCommand(const Drive& drive) {
   Check check;
   check.within("left", drive.left, -1.0, 1.0);
   check.within("right", drive.right, -1.0, 1.0);
-  return check.result(vehicle::DriveCommand{drive.left, drive.right});
+  return resultOf(check, vehicle::DriveCommand{drive.left, drive.right});
 }
 
 Converted toCommand(const Helm& helm) {
   Check check;
   check.within("thrust", helm.thrust, -1.0, 1.0);
   check.within("yaw_rate", helm.yaw_rate, -kMostYawRate_rad_s, kMostYawRate_rad_s);
-  return check.result(vehicle::HelmCommand{helm.thrust, 0.0 - helm.yaw_rate});
+  return resultOf(check, vehicle::HelmCommand{helm.thrust, 0.0 - helm.yaw_rate});
 }
 
 Converted toCommand(const Course& course, NorthOffset north_offset_deg) {
   Check check;
-  const double heading_deg = check.heading_deg("yaw", course.yaw, north_offset_deg);
+  const double heading = heading_deg("yaw", course.yaw, north_offset_deg, check);
   check.within("speed", course.speed, 0.0, kMostSpeed_m_s);
-  return check.result(vehicle::CourseCommand{heading_deg, course.speed});
+  return resultOf(check, vehicle::CourseCommand{heading, course.speed});
 }
 
 Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
@@ -183,7 +157,7 @@ Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
   check.finite("angular.z", velocity.angular.z);
   const double thrust = std::clamp(velocity.linear.x / max_speed_m_s, -1.0, 1.0);
   const double yaw_rate = std::clamp(velocity.angular.z, -max_yaw_rate_rad_s, max_yaw_rate_rad_s);
-  return check.result(vehicle::HelmCommand{thrust, 0.0 - yaw_rate});
+  return resultOf(check, vehicle::HelmCommand{thrust, 0.0 - yaw_rate});
 }
 
 }  // namespace frontseat_driver::ros_layer

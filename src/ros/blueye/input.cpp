@@ -6,9 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "blueye/outside.h"
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
+#include "check.h"
 #include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {

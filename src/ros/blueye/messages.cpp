@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 
+#include "check.h"
 #include "convert.h"
 #include "covariance.h"
 
@@ -40,6 +42,10 @@ ros::Time timeOf(const google::protobuf::Timestamp& time) {
 
 bool isFinite(const pb::Vector3& vector) {
   return std::isfinite(vector.x()) && std::isfinite(vector.y()) && std::isfinite(vector.z());
+}
+
+bool isFinite(const geometry_msgs::Vector3& vector) {
+  return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 
 void setPosition(double& latitude, double& longitude, bool known,
@@ -199,11 +205,11 @@ void fill(sensor_msgs::Imu& out, const pb::Imu& imu, const std::optional<double>
     setVariances(out.angular_velocity_covariance, 0,
                  allAxes(variance(context.deviations.angular_rate_rad_s)));
   }
-  if (imu.has_accelerometer() && isFinite(imu.accelerometer()) && factor) {
-    const double scale = kStandardGravity_m_s2 * *factor;
-    const pb::Vector3& sensed = imu.accelerometer();
-    out.linear_acceleration =
-        fluFromFrd(scale * sensed.x(), scale * sensed.y(), scale * sensed.z());
+  const double scale = kStandardGravity_m_s2 * factor.value_or(kNan);
+  const pb::Vector3& sensed = imu.accelerometer();
+  const auto force = fluFromFrd(scale * sensed.x(), scale * sensed.y(), scale * sensed.z());
+  if (imu.has_accelerometer() && isFinite(force)) {  // the product may not fit into a number
+    out.linear_acceleration = force;
     setVariances(out.linear_acceleration_covariance, 0,
                  allAxes(variance(context.deviations.acceleration_m_s2)));
   }
@@ -572,6 +578,7 @@ std::optional<geometry_msgs::WrenchStamped> toWrench(const pb::ControlForceTel& 
   out.header = context.header(context.base_frame);
   out.wrench.force = fluFromFrd(in.surge(), in.sway(), in.heave());
   out.wrench.torque.z = negated(in.yaw());
+  if (!isFinite(out.wrench.force) || !isFinite(out.wrench.torque)) return std::nullopt;
   return out;
 }
 
@@ -794,32 +801,17 @@ std::optional<MultibeamPing> toPing(const pb::MultibeamPingTel& told, const Cont
 
 // --- Commands ---
 
-namespace {
-
-struct Part {
-  const char* name;
-  double value;
-  double low;
-};
-
-std::string refusalOf(const Part& part) {
-  if (part.value >= part.low && part.value <= 1.0) return {};
-  char text[120];
-  std::snprintf(text, sizeof text, "%s is %.10g; %g to 1 is accepted", part.name, part.value,
-                part.low);
-  return text;
-}
-
-}  // namespace
-
 ConvertedMotion toCommand(const MotionInput& in) {
-  const Part parts[] = {{"x", in.x, -1.0},       {"y", in.y, -1.0},         {"z", in.z, -1.0},
-                        {"roll", in.roll, -1.0}, {"pitch", in.pitch, -1.0}, {"yaw", in.yaw, -1.0},
-                        {"slow", in.slow, 0.0},  {"boost", in.boost, 0.0}};
-  for (const Part& part : parts) {
-    const std::string refusal = refusalOf(part);
-    if (!refusal.empty()) return refusal;
-  }
+  Check check;
+  check.within("x", in.x, -1.0, 1.0);
+  check.within("y", in.y, -1.0, 1.0);
+  check.within("z", in.z, -1.0, 1.0);
+  check.within("roll", in.roll, -1.0, 1.0);
+  check.within("pitch", in.pitch, -1.0, 1.0);
+  check.within("yaw", in.yaw, -1.0, 1.0);
+  check.within("slow", in.slow, 0.0, 1.0);
+  check.within("boost", in.boost, 0.0, 1.0);
+  if (!check.refusal().empty()) return check.refusal();
   vehicle::MotionCommand out;
   out.surge = in.x;
   out.sway = negated(in.y);
@@ -833,14 +825,14 @@ ConvertedMotion toCommand(const MotionInput& in) {
 }
 
 ConvertedMotion toCommand(const geometry_msgs::Twist& in, const FullSpeed& full) {
-  const std::pair<const char*, double> parts[] = {
-      {"linear.x", in.linear.x},   {"linear.y", in.linear.y},   {"linear.z", in.linear.z},
-      {"angular.x", in.angular.x}, {"angular.y", in.angular.y}, {"angular.z", in.angular.z}};
-  for (const auto& [name, value] : parts) {
-    if (!std::isfinite(value)) {
-      return std::string{name} + " is " + std::to_string(value) + "; a finite number is accepted";
-    }
-  }
+  Check check;
+  check.finite("linear.x", in.linear.x);
+  check.finite("linear.y", in.linear.y);
+  check.finite("linear.z", in.linear.z);
+  check.finite("angular.x", in.angular.x);
+  check.finite("angular.y", in.angular.y);
+  check.finite("angular.z", in.angular.z);
+  if (!check.refusal().empty()) return check.refusal();
   const auto share = [](double value, double most) { return std::clamp(value / most, -1.0, 1.0); };
   vehicle::MotionCommand out;
   out.surge = share(in.linear.x, full.surge_m_s);

@@ -7,41 +7,13 @@
 #include <utility>
 
 #include "blueye/messages.h"
-#include "blueye/outside.h"
+#include "check.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
 namespace {
 
 constexpr double kMultibeamLimit_deg = 28.0;  // of the servo, though the document says 30
-
-/// Collects the first thing that is wrong.
-class Check {
- public:
-  void within(const char* field, double value, double low, double high) {
-    refuse(outside(field, value, low, high));
-  }
-
-  void finite(const char* field, double value) {
-    if (std::isfinite(value)) return;
-    refuse(std::string{field} + " is " + std::to_string(value) + "; a finite number is accepted");
-  }
-
-  void oneOf(const char* field, std::uint8_t value, std::uint8_t low, std::uint8_t high,
-             const char* names) {
-    if (value >= low && value <= high) return;
-    refuse(std::string{field} + " is " + std::to_string(value) + "; " + names + " is accepted");
-  }
-
-  const std::string& refusal() const { return refusal_; }
-
- private:
-  void refuse(std::string text) {
-    if (refusal_.empty()) refusal_ = std::move(text);
-  }
-
-  std::string refusal_;
-};
 
 /// Of `guest_port_<n>_servo`, as joint_states names it.
 std::optional<int> guestPortOf(const std::string& joint) {
@@ -56,7 +28,7 @@ std::optional<int> guestPortOf(const std::string& joint) {
 ConvertedReset toReset(const ResetPositionRequest& wanted) {
   Check check;
   check.oneOf("heading_source", wanted.heading_source, 1, 2, "1 (COMPASS) or 2 (MANUAL)");
-  check.finite("yaw", wanted.yaw);
+  check.angle_rad("yaw", wanted.yaw);
   check.oneOf("coordinate_source", wanted.coordinate_source, 1, 3,
               "1 (DEVICE_GPS), 2 (MANUAL) or 3 (BLUEYE_GNSS)");
   check.within("latitude", wanted.latitude, -90.0, 90.0);
@@ -66,7 +38,8 @@ ConvertedReset toReset(const ResetPositionRequest& wanted) {
   pb::ResetPositionCtrl message;
   pb::ResetPositionSettings& settings = *message.mutable_settings();
   settings.set_heading_source_during_reset(static_cast<pb::HeadingSource>(wanted.heading_source));
-  settings.set_manual_heading(static_cast<float>(headingOf_deg(wanted.yaw)));
+  const auto heading_deg = static_cast<float>(headingOf_deg(wanted.yaw));
+  settings.set_manual_heading(heading_deg < 360.0F ? heading_deg : 0.0F);  // a float may round up
   settings.set_reset_coordinate_source(
       static_cast<pb::ResetCoordinateSource>(wanted.coordinate_source));
   settings.mutable_reset_coordinate()->set_latitude(wanted.latitude);

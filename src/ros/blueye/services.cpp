@@ -19,9 +19,9 @@
 #include <utility>
 
 #include "blueye/mission_json.h"
-#include "blueye/outside.h"
 #include "blueye/service_requests.h"
 #include "blueye/topics.h"
+#include "check.h"
 #include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
@@ -319,14 +319,9 @@ void Services::addSettings() {
     });
   });
   advertise<SetHeadingMode>(topics::kSetHeadingMode, [this](SetHeadingModeRequest& wanted) {
-    if (wanted.heading_mode != SetHeadingModeRequest::COMPASS &&
-        wanted.heading_mode != SetHeadingModeRequest::GYRO) {
-      return Answer{false,
-                    "heading_mode is " + std::to_string(wanted.heading_mode) +
-                        "; 1 (COMPASS) and 2 (GYRO) are accepted",
-                    {},
-                    {}};
-    }
+    Check check;
+    check.oneOf("heading_mode", wanted.heading_mode, 1, 2, "1 (COMPASS) or 2 (GYRO)");
+    if (!check.refusal().empty()) return Answer{false, check.refusal(), {}, {}};
     pb::SetHeadingModeReq message;
     message.set_heading_mode(static_cast<pb::HeadingMode>(wanted.heading_mode));
     return request(message.GetTypeName(), message.SerializeAsString(), timeout_);

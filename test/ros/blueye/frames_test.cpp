@@ -483,7 +483,7 @@ TEST_P(OneMotion, RefusesWhatIsOutOfRange) {
     in.*GetParam().ros = wrong;
     const auto converted = toCommand(in);
     ASSERT_TRUE(std::holds_alternative<std::string>(converted)) << wrong;
-    EXPECT_THAT(std::get<std::string>(converted), HasSubstr("-1 to 1 is accepted"));
+    EXPECT_THAT(std::get<std::string>(converted), HasSubstr("-1..1 is accepted"));
   }
 }
 

@@ -34,6 +34,14 @@ TEST(Reset, CarriesEveryFieldWithTheHeadingFromNorth) {
   EXPECT_EQ(settings.heading_mode(), pb::HEADING_MODE_GYRO_ONLY);
 }
 
+TEST(Reset, AHeadingThatRoundsToAFullTurnIsNorth) {
+  ResetPositionRequest wanted = someReset();
+  wanted.yaw = M_PI_2 + 1e-9;
+  const ConvertedReset converted = toReset(wanted);
+  ASSERT_TRUE(std::holds_alternative<pb::ResetPositionCtrl>(converted));
+  EXPECT_EQ(std::get<pb::ResetPositionCtrl>(converted).settings().manual_heading(), 0.0F);
+}
+
 TEST(Reset, NamesTheFieldItsValueAndWhatIsAccepted) {
   struct Row {
     void (*spoil)(ResetPositionRequest&);
@@ -45,10 +53,11 @@ TEST(Reset, NamesTheFieldItsValueAndWhatIsAccepted) {
       {[](auto& w) { w.heading_source = 3; },
        "heading_source is 3; 1 (COMPASS) or 2 (MANUAL) is accepted"},
       {[](auto& w) { w.yaw = NAN; }, "yaw is nan; a finite number is accepted"},
+      {[](auto& w) { w.yaw = 1e307; }, "yaw is 1e+307; -1000000..1000000 is accepted"},
       {[](auto& w) { w.coordinate_source = 4; },
        "coordinate_source is 4; 1 (DEVICE_GPS), 2 (MANUAL) or 3 (BLUEYE_GNSS) is accepted"},
-      {[](auto& w) { w.latitude = 90.5; }, "latitude is 90.5; -90 to 90 is accepted"},
-      {[](auto& w) { w.longitude = NAN; }, "longitude is nan; -180 to 180 is accepted"},
+      {[](auto& w) { w.latitude = 90.5; }, "latitude is 90.5; -90..90 is accepted"},
+      {[](auto& w) { w.longitude = NAN; }, "longitude is nan; -180..180 is accepted"},
       {[](auto& w) { w.heading_mode = 0; },
        "heading_mode is 0; 1 (COMPASS) or 2 (GYRO) is accepted"},
   };
@@ -153,11 +162,11 @@ TEST(Joints, AreKnownByTheirWholeNameOnly) {
 
 TEST(Joints, AreRefusedBeyondTheirEnds) {
   EXPECT_EQ(std::get<std::string>(toJointControl("guest_port_1_servo", 0.8, {})),
-            "position is 0.8; -0.785398 to 0.785398 is accepted");
+            "position is 0.8; -0.7853981634..0.7853981634 is accepted");
   EXPECT_EQ(std::get<std::string>(toJointControl("guest_port_1_servo", NAN, {})),
-            "position is nan; -0.785398 to 0.785398 is accepted");
+            "position is nan; -0.7853981634..0.7853981634 is accepted");
   EXPECT_EQ(std::get<std::string>(toJointControl("multibeam_tilt", -1.6, {})),
-            "position is -1.6; -1.5708 to 1.5708 is accepted");
+            "position is -1.6; -1.570796327..1.570796327 is accepted");
 }
 
 }  // namespace
