@@ -171,7 +171,7 @@ bool FieldReader::readTheLongWay(std::string_view text, double& out) {
   const char* const end = text.data() + text.size();
   if (text.empty() || readDecimal(text.data(), end, decimal) != end) return refuseField(text);
   out = toDouble(decimal);
-  return std::isfinite(out) || refuse(Fault::OutOfRange);
+  return std::abs(out) <= kLargest || refuse(Fault::OutOfRange);
 }
 
 bool FieldReader::read(std::int64_t& out, std::int64_t low, std::int64_t high) {

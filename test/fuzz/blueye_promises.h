@@ -3,6 +3,7 @@
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/FluidPressure.h>
 #include <sensor_msgs/Imu.h>
@@ -91,6 +92,9 @@ inline void check(const sensor_msgs::Imu& out) {
   checkVariances(out.orientation_covariance);
   checkVariances(out.angular_velocity_covariance);
   checkVariances(out.linear_acceleration_covariance);
+}
+inline void check(const geometry_msgs::WrenchStamped& out) {
+  promise(finite(out.wrench.force) && finite(out.wrench.torque), "a force is none");
 }
 inline void check(const nav_msgs::Odometry& out) {
   promise(finite(out.pose.pose.position), "a place is none");

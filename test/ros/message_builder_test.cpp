@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "convert.h"
+#include "frontseat_driver/nmea/field_reader.h"
 
 namespace frontseat_driver::ros_layer {
 namespace {
@@ -814,6 +815,34 @@ TEST_F(Builder, RawImuInGIsScaled) {
   EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.x, 4.903325);  // half of 9.80665
   EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.y, -2.4516625);
   EXPECT_DOUBLE_EQ(builder.rawImu()->linear_acceleration.z, 9.80665);
+}
+
+bool isFinite(const geometry_msgs::Vector3& vector) {
+  return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
+}
+
+TEST_F(Builder, TheLargestNumbersOfAVehicleStayNumbers) {
+  constexpr double kLargest = nmea::FieldReader::kLargest;
+  Parameters parameters = parametersFor(Dialect::Kingfisher);
+  parameters.acceleration_unit = AccelerationUnit::StandardGravity;
+  MessageBuilder builder(parameters);
+  builder.take(vehicle::RawImu{{}, kLargest, -kLargest, kLargest, -kLargest, kLargest, -kLargest},
+               at(0s));
+  EXPECT_TRUE(isFinite(builder.rawImu()->angular_velocity));
+  EXPECT_TRUE(isFinite(builder.rawImu()->linear_acceleration));
+  vehicle::Velocity velocity;
+  velocity.east_m_s = velocity.north_m_s = velocity.down_m_s = kLargest;
+  velocity.roll_rate_deg_s = velocity.pitch_rate_deg_s = velocity.yaw_rate_deg_s = -kLargest;
+  builder.take(velocity, at(0s));
+  vehicle::Navigation navigation = navigationAt(kHarbor);
+  navigation.heading_deg = 45.0;
+  navigation.altitude_m = kLargest;
+  navigation.depth_m = -kLargest;
+  const auto odom = odometryOf(builder, navigation, at(0s));
+  EXPECT_TRUE(isFinite(odom.twist.twist.linear));
+  EXPECT_TRUE(isFinite(odom.twist.twist.angular));
+  EXPECT_TRUE(std::isfinite(odom.pose.pose.position.z));
+  EXPECT_TRUE(std::isfinite(builder.altitude()->range));
 }
 
 TEST_F(Builder, RawImuWithoutAnAxisIsZeroAndUnknownThere) {

@@ -27,11 +27,14 @@ struct FieldFaults {
 /// locale.
 class FieldReader {
  public:
+  /// Far beyond what a vehicle measures; what is computed from it is still a finite number.
+  static constexpr double kLargest = 1e30;
+
   explicit FieldReader(const Sentence& sentence);
 
   /// A decimal number, with or without sign, point, or exponent; correctly rounded, as strtod does,
   /// whatever the number of digits. `nan` and `inf` of any sign and case are no data (a standing
-  /// Heron sends them). Too large for a double is OutOfRange.
+  /// Heron sends them). Beyond kLargest is OutOfRange.
   std::optional<double> number() {
     double value = 0.0;
     return read(value) ? std::optional<double>{value} : std::nullopt;

@@ -259,6 +259,11 @@ TEST_F(Messages, SetPointsErrorsAndForcesKeepTheirAxes) {
   pb::ControlForceTel force;
   force.mutable_control_force()->set_yaw(4.0F);
   EXPECT_EQ(toWrench(force, context())->wrench.torque.x, 0.0);
+  force.mutable_control_force()->set_heave(NAN);
+  EXPECT_FALSE(toWrench(force, context()));
+  force.mutable_control_force()->set_heave(1.0F);
+  force.mutable_control_force()->set_yaw(INFINITY);
+  EXPECT_FALSE(toWrench(force, context()));
 }
 
 TEST_F(Messages, AnAutoPilotTellsWhereToAndHowFarAboveOrBelow) {

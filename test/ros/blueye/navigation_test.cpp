@@ -399,6 +399,17 @@ TEST_P(AccelerometerAtRest, TellsTheSignOfItsAxes) {
 INSTANTIATE_TEST_SUITE_P(Table, AccelerometerAtRest, testing::ValuesIn(kRests),
                          [](const auto& row) { return std::string{row.param.name}; });
 
+TEST_F(Together, AnAccelerationBeyondNumbersIsNoneAtAll) {
+  pb::CalibratedImuTel told;
+  told.mutable_imu()->mutable_accelerometer()->set_z(-1.7e308);
+  sensor_msgs::Imu out;
+  const Conventions conventions;
+  const Deviations deviations;
+  fill(out, told.imu(), 1.0, Context{ros::Time(1), conventions, deviations});
+  EXPECT_EQ(out.linear_acceleration.z, 0.0);
+  EXPECT_EQ(out.linear_acceleration_covariance[0], -1.0);
+}
+
 TEST_F(Together, ImuHasTheFreshAttitudeOrNone) {
   pb::CalibratedImuTel told;
   told.mutable_imu()->mutable_gyroscope()->set_z(0.5);
