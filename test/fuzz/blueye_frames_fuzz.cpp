@@ -11,8 +11,8 @@
 #include "blueye/messages.h"
 #include "blueye/mission_json.h"
 #include "blueye/navigation.h"
-#include "blueye_promises.h"
 #include "frontseat_driver/protocol/blueye_catalogue.h"
+#include "message_promises.h"
 
 // What a drone says, and what a user writes for one: from frames to ROS messages and JSON, and from
 // JSON to frames. The first byte chooses the conventions; then one message after the other, each

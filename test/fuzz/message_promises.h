@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <nav_msgs/Odometry.h>
@@ -82,8 +83,8 @@ inline void check(const sensor_msgs::JointState& out) {
 inline void check(const sensor_msgs::NavSatFix& out) {
   const bool fix = out.status.status != sensor_msgs::NavSatStatus::STATUS_NO_FIX;
   const bool on_earth = std::abs(out.latitude) <= 90.0 && std::abs(out.longitude) <= 180.0;
-  promise(fix ? on_earth : std::isnan(out.latitude) && std::isnan(out.longitude),
-          "a fix is somewhere else");
+  const bool unknown = std::isnan(out.latitude) && std::isnan(out.longitude);
+  promise(on_earth || (unknown && !fix), "a fix is somewhere else");
   checkVariances(out.position_covariance);
 }
 inline void check(const sensor_msgs::Imu& out) {
@@ -92,6 +93,11 @@ inline void check(const sensor_msgs::Imu& out) {
   checkVariances(out.orientation_covariance);
   checkVariances(out.angular_velocity_covariance);
   checkVariances(out.linear_acceleration_covariance);
+}
+inline void check(const geometry_msgs::TwistStamped& out) {
+  const geometry_msgs::Vector3& linear = out.twist.linear;
+  promise(std::isfinite(linear.x) && std::isfinite(linear.y), "a velocity is none");
+  promise(!std::isinf(linear.z), "a vertical velocity is none");  // NaN: not known
 }
 inline void check(const geometry_msgs::WrenchStamped& out) {
   promise(finite(out.wrench.force) && finite(out.wrench.torque), "a force is none");
