@@ -13,12 +13,16 @@
 namespace frontseat_driver::session {
 namespace {
 
+using testing::AllOf;
 using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
+using testing::Ge;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::IsSupersetOf;
 using testing::Not;
+using testing::SizeIs;
 using State = vehicle::MissionStatus::State;
 
 vehicle::MotionCommand forward(double surge = 0.5) {
@@ -27,9 +31,11 @@ vehicle::MotionCommand forward(double surge = 0.5) {
   return motion;
 }
 
-pb::DroneTimeTel clockAt(std::int64_t uptime_s) {
+pb::DroneTimeTel clockAt(std::int64_t uptime_s, std::int32_t and_ns = 0) {
   pb::DroneTimeTel message;
-  message.mutable_monotonic_clock()->mutable_unix_timestamp()->set_seconds(uptime_s);
+  auto& time = *message.mutable_monotonic_clock()->mutable_unix_timestamp();
+  time.set_seconds(uptime_s);
+  time.set_nanos(and_ns);
   return message;
 }
 
@@ -37,6 +43,21 @@ pb::MissionStatusTel missionIn(pb::MissionState state) {
   pb::MissionStatusTel message;
   message.mutable_mission_status()->set_state(state);
   return message;
+}
+
+std::vector<std::chrono::nanoseconds> spacings(const std::vector<vehicle::SteadyTime>& times) {
+  std::vector<std::chrono::nanoseconds> between;
+  for (std::size_t i = 1; i < times.size(); ++i) between.push_back(times[i] - times[i - 1]);
+  return between;
+}
+
+/// When each request of a type was sent.
+std::vector<vehicle::SteadyTime> timesOf(const ScriptedDrone& drone, const std::string& type) {
+  std::vector<vehicle::SteadyTime> times;
+  for (const auto& sent : drone.requests) {
+    if (sent.type == type) times.push_back(sent.at);
+  }
+  return times;
 }
 
 TEST(BlueyeSession, RegistersAsAnObserverAndThenAsksForWhatItNeeds) {
@@ -65,12 +86,27 @@ TEST(BlueyeSession, KeepsAskingUntilTheDroneAnswers) {
   drone.session.connected(drone.now, drone);
   drone.run(5s);
   const auto pings = drone.requestNames();
-  EXPECT_THAT(pings, testing::Each(std::string{"PingReq"}));
+  EXPECT_THAT(pings, Each(std::string{"PingReq"}));
   EXPECT_EQ(pings.size(), 3u);  // each waits 1 s for its reply and 1 s after it
   EXPECT_EQ(drone.control.grant, vehicle::Grant::Unknown);
   drone.answers = true;
   drone.run(2s);
   EXPECT_TRUE(drone.session.registered());
+}
+
+TEST(BlueyeSession, SaysThatThereIsNoConnectionBeforeTheFirst) {
+  ScriptedDrone drone;
+  drone.turn();
+  EXPECT_EQ(drone.reason, "there is no connection to the vehicle");
+}
+
+TEST(BlueyeSession, TriesOnceASecondToRegisterWithADroneThatRegistersNobody) {
+  ScriptedDrone drone;
+  drone.echoes = true;
+  drone.echo = {pb::ConnectClientRep{}.GetTypeName(), {}};
+  drone.session.connected(drone.now, drone);
+  drone.run(5s);
+  EXPECT_THAT(spacings(timesOf(drone, "ConnectClientReq")), AllOf(SizeIs(4), Each(1001ms)));
 }
 
 TEST(BlueyeSession, AnObserverPublishesNothingAtAll) {
@@ -115,6 +151,11 @@ TEST(BlueyeSession, GivesUpOnAClientThatKeepsControlAndGoesBackToObserving) {
   EXPECT_THAT(answer->message, HasSubstr("client " + std::to_string(app) + " keeps control"));
   EXPECT_LE(drone.now.steady - asked, 1200ms);
   drone.run(100ms);
+  auto goodbyes = timesOf(drone, "DisconnectClientReq");
+  ASSERT_GE(goodbyes.size(), 10u);
+  goodbyes.erase(goodbyes.begin());  // of the observer, and of who would have been in control
+  goodbyes.pop_back();
+  EXPECT_THAT(spacings(goodbyes), Each(100ms));
   // When the other one goes, this client must not find itself in control.
   drone.keeps_control = false;
   drone.removeClient(app);
@@ -127,17 +168,45 @@ TEST(BlueyeSession, GivesUpOnAClientThatKeepsControlAndGoesBackToObserving) {
 TEST(BlueyeSession, SendsZeroMotionAndTheClockWhenItGainsControl) {
   BlueyeOptions options;
   options.water_density_kg_m3 = 1025.0;
-  options.pinger_mounting = PingerMounting::Forwards;
   ScriptedDrone drone(options);
+  drone.now.utc += 1s;  // an odd one, of which the fraction is not to be read as more than a second
+  const auto steady_to_utc = drone.now.utc - drone.now.steady.time_since_epoch();
   drone.giveControl();
   ASSERT_THAT(drone.controlsOf("MotionInputCtrl"), Not(IsEmpty()));
   EXPECT_TRUE(drone.isAtRest());
-  EXPECT_THAT(drone.requestNames(), Contains("SyncTimeReq"));
+  const auto sync =
+      std::find_if(drone.requests.begin(), drone.requests.end(),
+                   [](const ScriptedDrone::Sent& one) { return one.type == "SyncTimeReq"; });
+  ASSERT_NE(sync, drone.requests.end());
+  pb::SyncTimeReq message;
+  ASSERT_TRUE(message.ParseFromString(sync->payload));
+  const auto& time = message.time().unix_timestamp();
+  const auto sent_at = sync->at.time_since_epoch() + steady_to_utc;
+  EXPECT_EQ(1s * time.seconds() + 1ns * time.nanos(), sent_at - 1ms);  // when control was gained
+  EXPECT_LT(time.nanos(), 1'000'000'000);
   ASSERT_EQ(drone.controlsOf("WaterDensityCtrl").size(), 1u);
   pb::WaterDensityCtrl density;
   ASSERT_TRUE(density.ParseFromString(drone.controlsOf("WaterDensityCtrl")[0].payload));
   EXPECT_FLOAT_EQ(density.density().value(), 1025.0F);
-  ASSERT_EQ(drone.controlsOf("PingerConfigurationCtrl").size(), 1u);
+  EXPECT_THAT(drone.controlsOf("PingerConfigurationCtrl"), IsEmpty());
+}
+
+TEST(BlueyeSession, TellsHowTheEchoSounderIsMountedWhenItGainsControl) {
+  using Told = pb::PingerConfiguration;
+  const std::pair<PingerMounting, Told::MountingDirection> kRows[] = {
+      {PingerMounting::Forwards, Told::MOUNTING_DIRECTION_FORWARDS},
+      {PingerMounting::Downwards, Told::MOUNTING_DIRECTION_DOWNWARDS}};
+  for (const auto& [mounting, told] : kRows) {
+    BlueyeOptions options;
+    options.pinger_mounting = mounting;
+    ScriptedDrone drone(options);
+    drone.giveControl();
+    const auto sent = drone.controlsOf("PingerConfigurationCtrl");
+    ASSERT_EQ(sent.size(), 1u);
+    pb::PingerConfigurationCtrl message;
+    ASSERT_TRUE(message.ParseFromString(sent[0].payload));
+    EXPECT_EQ(message.configuration().mounting_direction(), told);
+  }
 }
 
 TEST(BlueyeSession, SendsTheWatchdogTwiceASecondWhileInControlOnly) {
@@ -170,8 +239,10 @@ TEST(BlueyeSession, SendsTheWatchdogAgainThatTheLinkDidNotTake) {
   drone.giveControl();
   drone.controls.clear();
   drone.link_takes = false;
+  drone.offers.clear();
   drone.run(800ms);
   EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
+  EXPECT_THAT(spacings(drone.offers["WatchdogCtrl"]), AllOf(SizeIs(Ge(10u)), Each(20ms)));
   drone.link_takes = true;
   drone.run(20ms);
   EXPECT_EQ(drone.controlsOf("WatchdogCtrl").size(), 1u);
@@ -574,9 +645,12 @@ TEST(BlueyeSession, RegistersAgainWhenTheDroneHasNoClientsLeft) {
   drone.giveControl();
   drone.run(2s);
   drone.removeClient(drone.session.id());
+  drone.requests.clear();
+  const auto told = drone.now.steady;
   drone.tellClients();
   EXPECT_FALSE(drone.session.inControl());
   drone.run(2s);
+  EXPECT_THAT(timesOf(drone, "PingReq"), ElementsAre(told + 1s));
   ASSERT_EQ(drone.registry.size(), 1u);
   EXPECT_EQ(drone.registry[0].id, drone.session.id());
 }
@@ -617,9 +691,39 @@ TEST(BlueyeSession, CountsLossOfControlRightAfterItWasGiven) {
     drone.tellClients();  // within the second in which telemetry may be old
     drone.controls.clear();
     EXPECT_THAT(drone.command(forward()), HasSubstr("in control")) << answered;
+    EXPECT_EQ(drone.session.idInControl(), drone.in_control) << answered;
     drone.run(2500ms);
     EXPECT_THAT(drone.controls, IsEmpty()) << answered;
     EXPECT_FALSE(drone.session.inControl()) << answered;
+  }
+}
+
+// It may list others alone and still name this client, as between two of its own steps.
+TEST(BlueyeSession, IsNotInControlOfADroneThatDoesNotListIt) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  EXPECT_EQ(drone.command(forward()), "");
+  drone.registry = {{99, "Blueye App", "App", false}};
+  drone.hold();
+  drone.tellClients();
+  EXPECT_FALSE(drone.session.inControl());
+  drone.controls.clear();
+  drone.run(1s);
+  EXPECT_THAT(drone.controls, IsEmpty());
+}
+
+TEST(BlueyeSession, AsksForASecondAfterItsRegistrationWhetherTelemetryIsOlder) {
+  for (const auto& [after, asks] : {std::pair{999ms, 1u}, std::pair{1000ms, 0u}}) {
+    ScriptedDrone drone;
+    drone.connect();
+    const auto registered = timesOf(drone, "ConnectClientReq").at(0);  // and answered
+    while (drone.now.steady < registered + after) drone.run(1ms);
+    drone.addClient("Blueye App");
+    drone.requests.clear();
+    drone.tellClients();
+    drone.run(10ms);
+    EXPECT_THAT(timesOf(drone, "GetTelemetryReq"), SizeIs(asks)) << after.count();
+    EXPECT_EQ(drone.session.idInControl(), drone.in_control) << after.count();
   }
 }
 
@@ -746,8 +850,11 @@ TEST(BlueyeSession, ForgetsEverythingWithTheConnection) {
   drone.loseLink();
   EXPECT_EQ(drone.control.grant, vehicle::Grant::Unknown);
   EXPECT_FALSE(drone.control.commanding);
+  EXPECT_EQ(drone.session.nextStep(), vehicle::SteadyTime::max());
   drone.controls.clear();
+  drone.requests.clear();
   drone.run(2s);
+  EXPECT_THAT(drone.requests, IsEmpty());
   EXPECT_EQ(drone.command(forward()), "there is no connection to the vehicle");
   drone.connect();
   EXPECT_THAT(drone.command(forward()), HasSubstr("not in control"));
@@ -766,6 +873,29 @@ TEST(BlueyeSession, LeavesTheConnectionsOfADroneThatWasRebooted) {
   EXPECT_THAT(drone.reconnects, ElementsAre("the drone was rebooted"));
 }
 
+struct Clocks {
+  pb::DroneTimeTel before, after;
+  bool rebooted;
+};
+
+// Telemetry may overtake itself by a little, and a clock does not step back by a second.
+TEST(BlueyeSession, TakesAClockThatGoesBackByMoreThanASecondForAReboot) {
+  const Clocks kRows[] = {{clockAt(1000), clockAt(1000), false},
+                          {clockAt(1000), clockAt(999, 500'000'000), false},
+                          {clockAt(1000), clockAt(999), false},
+                          {clockAt(1000), clockAt(998, 999'999'999), true},
+                          {clockAt(1000, 900'000'000), clockAt(999, 800'000'000), true},
+                          {clockAt(1000, 100'000'000), clockAt(999, 200'000'000), false}};
+  for (const Clocks& row : kRows) {
+    ScriptedDrone drone;
+    drone.connect();
+    drone.tell(row.before);
+    drone.tell(row.after);
+    EXPECT_EQ(drone.reconnects.size(), row.rebooted ? 1u : 0u)
+        << row.before.ShortDebugString() << " " << row.after.ShortDebugString();
+  }
+}
+
 // Nanoseconds of it would not fit into 64 bits.
 TEST(BlueyeSession, TakesNoClockThatNoneCanShowForAReboot) {
   ScriptedDrone drone;
@@ -773,6 +903,7 @@ TEST(BlueyeSession, TakesNoClockThatNoneCanShowForAReboot) {
   drone.tell(clockAt(1000));
   drone.tell(clockAt(std::numeric_limits<std::int64_t>::max()));
   drone.tell(clockAt(std::numeric_limits<std::int64_t>::min()));
+  drone.tell(clockAt(9'300'000'000));
   drone.tell(clockAt(1002));
   EXPECT_THAT(drone.reconnects, IsEmpty());
   drone.tell(clockAt(3));
@@ -803,6 +934,25 @@ TEST(BlueyeSession, StopSendsZerosAtOnceAndPausesTheMission) {
   drone.tell(missionIn(pb::MISSION_STATE_INACTIVE));
   drone.run(5s);
   EXPECT_EQ(drone.controlsOf("ClearMissionCtrl").size(), 3u);
+}
+
+TEST(BlueyeSession, StopGoesOnPausingForFiveSecondsAndAsksForTheMissionMeanwhile) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(1s);
+  drone.controls.clear();
+  drone.requests.clear();
+  drone.session.step(drone.now, drone);
+  const auto stopped = drone.now.steady;
+  drone.session.stop(drone.now, drone);
+  drone.run(20s);
+  const auto pauses = drone.controlsOf("PauseMissionCtrl");
+  ASSERT_EQ(pauses.size(), 10u);
+  EXPECT_EQ(pauses.back().at - stopped, 4500ms);
+  const auto questions = timesOf(drone, "GetTelemetryReq");
+  ASSERT_EQ(questions.size(), 16u);  // at 0.3 s, 0.6 s ... 4.8 s
+  EXPECT_EQ(questions[0] - stopped, 300ms);
+  EXPECT_THAT(spacings(questions), Each(300ms));
 }
 
 TEST(BlueyeSession, AbortThatSendsNothingIsNoSuccess) {
@@ -967,6 +1117,7 @@ TEST(BlueyeSession, LeavesWithZeroMotionAndGoodbye) {
   ScriptedDrone drone;
   drone.giveControl();
   drone.command(forward());
+  drone.requests.clear();
   drone.session.leave(drone.now, drone);
   drone.session.step(drone.now, drone);
   EXPECT_TRUE(drone.isAtRest());
@@ -979,6 +1130,19 @@ TEST(BlueyeSession, LeavesWithZeroMotionAndGoodbye) {
   drone.run(900ms);
   EXPECT_THAT(drone.controlsOf("WatchdogCtrl"), IsEmpty());
   EXPECT_TRUE(drone.isAtRest());
+  EXPECT_THAT(drone.requestNames(), ElementsAre("DisconnectClientReq"));
+}
+
+TEST(BlueyeSession, WaitsNoLongerThan50msForTheAnswerToItsGoodbye) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.answers = false;
+  drone.session.leave(drone.now, drone);
+  drone.session.step(drone.now, drone);
+  drone.run(49ms);
+  EXPECT_FALSE(drone.session.hasLeft());
+  drone.run(1ms);
+  EXPECT_TRUE(drone.session.hasLeft());
 }
 
 TEST(BlueyeSession, SendsNoZeroAfterItsGoodbye) {
@@ -1067,6 +1231,14 @@ TEST(BlueyeSession, PassesOnWhatItDoesNotKnowAndCountsWhatItCannotRead) {
   EXPECT_TRUE(drone.session.registered());
 }
 
+TEST(BlueyeSession, CountsTheBytesOfTypesAndPayloads) {
+  ScriptedDrone drone;
+  drone.session.telemetry(drone.now, "blueye.protocol.DepthTel", {"\x0a\x00", 2}, drone);
+  EXPECT_EQ(drone.session.counters().bytes_received, 24u + 2u);
+  drone.session.reply(drone.now, "google.protobuf.Empty", {"\x08\x01\x10", 3}, drone);
+  EXPECT_EQ(drone.session.counters().bytes_received, 26u + 21u + 3u);
+}
+
 TEST(BlueyeSession, ReportsTheMissionInCommonWordsWhenItChanges) {
   ScriptedDrone drone;
   drone.connect();
@@ -1094,6 +1266,11 @@ TEST(BlueyeSession, AsksForARateNowAndAfterEveryConnect) {
   EXPECT_FALSE(answer->success);
   drone.session.setRate(drone.now, "DepthTel", 101.0, respond, drone);
   EXPECT_THAT(answer->message, HasSubstr("101"));
+  for (const auto& [rate_hz, accepted] : {std::pair{0.0, true}, {0.5, true}, {-0.1, false}}) {
+    drone.session.setRate(drone.now, "DepthTel", rate_hz, respond, drone);
+    drone.run(10ms);
+    EXPECT_EQ(answer->success, accepted) << rate_hz;
+  }
   drone.loseLink();
   drone.requests.clear();
   drone.connect();
