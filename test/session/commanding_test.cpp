@@ -778,6 +778,7 @@ TEST_F(Commanding, RawSentencesGetTheirChecksum) {
        "asterisk and $ are accepted, and the checksum is added"},
       {"$PYDIR,1,2*55", "sentence is '$PYDIR,1,2*55'; an address"},
       {"", "sentence is ''; an address"},
+      {"PY*DIR," + std::string(187, '1'), "sentence is 'PY*DIR,1"},  // not for its length
       {"PYDIR," + std::string(189, '1'), "sentence has 195 characters; a sentence takes 200 bytes"},
       {"PYDIR,1\n", "sentence is 'PYDIR,1\n'; an address"}};
   for (const auto& [text, refusal] : rows) {
