@@ -265,6 +265,16 @@ TEST(Distance, IsInMeters) {
   EXPECT_EQ(apart_m({45.0, 10.0}, {45.0, 10.0}), 0.0);
 }
 
+// The half axes of WGS-84 are 6378137 m and 6356752.3142 m.
+TEST(Distance, IsOfPlacesOnTheEllipsoid) {
+  const auto null_island = fromEarthCentre_m({0.0, 0.0});
+  EXPECT_NEAR(null_island.x, 6378137.0, 0.001);
+  const auto east = fromEarthCentre_m({0.0, 90.0});
+  EXPECT_NEAR(east.y, 6378137.0, 0.001);
+  const auto pole = fromEarthCentre_m({90.0, 0.0});
+  EXPECT_NEAR(pole.z, 6356752.3142, 0.001);
+}
+
 TEST(RosTime, KeepsNanoseconds) {
   const ros::Time time = toRosTime(1419984000s + 123456789ns);
   EXPECT_EQ(time.sec, 1419984000U);
