@@ -276,6 +276,23 @@ TEST_F(NmeaSessionTest, TellsWhoIsInControlAtOnce) {
 }
 
 // Else the driver's thread would go round without a pause.
+TEST(NmeaOptions, DefaultsAreThoseOfTheInterface) {
+  const NmeaOptions options;
+  EXPECT_EQ(options.command_timeout, 1s);
+  EXPECT_EQ(options.command_rate_hz, 5.0);
+  EXPECT_EQ(options.ack_timeout, 3s);
+  EXPECT_EQ(options.effect_timeout, 10s);
+  EXPECT_EQ(options.max_data_age, 2s);
+  EXPECT_EQ(options.status_rate_hz, 1.0);
+}
+
+TEST_F(NmeaSessionTest, NothingIsDueBeforeTheFirstConnection) {
+  NmeaSession session{NmeaOptions{}};
+  session.step(now(), out_);
+  EXPECT_EQ(session.nextStep(), SteadyTime::max());
+  EXPECT_TRUE(out_.sent.empty());
+}
+
 TEST_F(NmeaSessionTest, NothingIsDueAfterAReconnectUntilTheVehicleSpeaks) {
   for (const bool listen_only : {false, true}) {
     NmeaOptions options;

@@ -98,6 +98,22 @@ TEST(BlueyeSession, SaysThatThereIsNoConnectionBeforeTheFirst) {
   ScriptedDrone drone;
   drone.turn();
   EXPECT_EQ(drone.reason, "there is no connection to the vehicle");
+  EXPECT_EQ(drone.session.nextStep(), vehicle::SteadyTime::max());
+  EXPECT_THAT(drone.requests, IsEmpty());
+}
+
+TEST(BlueyeSession, ReportsControlWhenItChangesAlone) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  drone.control_reports = 0;
+  for (int i = 0; i < 10; ++i) drone.tellClients();
+  EXPECT_EQ(drone.control_reports, 0);
+  drone.command(forward());
+  drone.command(forward(0.6));
+  EXPECT_EQ(drone.control_reports, 1);
+  drone.session.setCommandsEnabled(drone.now, false);
+  EXPECT_EQ(drone.control_reports, 2);
 }
 
 TEST(BlueyeSession, TriesOnceASecondToRegisterWithADroneThatRegistersNobody) {
@@ -1095,6 +1111,8 @@ TEST(BlueyeSession, RefusesOtherControlsThatWaitedTooLongOrAcrossAStop) {
   EXPECT_THAT(send(drone.now.steady - 1s), HasSubstr("command_timeout"));
   EXPECT_EQ(drone.controlsOf("LightsCtrl").size(), 1u);
   EXPECT_EQ(drone.session.counters().refused_commands, 2u);
+  drone.session.countRefusedCommands(3);
+  EXPECT_EQ(drone.session.counters().refused_commands, 5u);
 }
 
 TEST(BlueyeSession, ClosingTheGateSendsZeroAndOpeningRevivesNothing) {

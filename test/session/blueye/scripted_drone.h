@@ -64,6 +64,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   void event(const vehicle::Now&, const vehicle::Event& event) override {
     if (const auto* changed = std::get_if<vehicle::Control>(&event)) {
       control = *changed;
+      ++control_reports;
       reason = std::string{changed->reason};
     }
     if (const auto* changed = std::get_if<vehicle::MissionStatus>(&event)) {
@@ -215,6 +216,7 @@ class ScriptedDrone : public BlueyeOutput, public BlueyeListener {
   std::vector<vehicle::MissionStatus::State> mission;
   std::vector<std::string> refused_rates;
   vehicle::Control control;
+  int control_reports = 0;
   std::string reason;
 
  private:
