@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "diagnosis/battery_watch.h"
+#include "diagnosis/clock_watch.h"
 #include "diagnosis/transition_log.h"
 
 namespace frontseat_driver::ros_layer {
@@ -15,6 +16,8 @@ using namespace std::chrono_literals;
 using Level = Diagnosis::Level;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::IsSupersetOf;
+using testing::Pair;
 using testing::SizeIs;
 
 SentenceRates::Rate rate(const std::string& address, double hz, double age_s) {
@@ -209,8 +212,32 @@ const Row kRows[] = {
      "clock", Level::Error, "/clock was set back by 60 s"},
     {"many_steps", [](auto& h) { h.clock.steps_lately = 5; }, "clock", Level::Warn,
      "stepped 5 times in the last minute"},
+    {"vehicle_set_back_by_little", [](auto& h) { h.clock.held_back_s = 0.6; }, "clock",
+     Level::Error, "stand still for 1 s more"},
+    {"simulated_clock_wavers", [](auto& h) { h.clock.simulated_behind_s = 0.49; }, "clock",
+     Level::Ok, "following"},
+    {"simulated_clock_wavers_too_much", [](auto& h) { h.clock.simulated_behind_s = 0.51; }, "clock",
+     Level::Error, "/clock was set back"},
     {"no_time_told", [](auto& h) { h.clock.vehicle_ahead_s.reset(); }, "clock", Level::Ok,
      "told no time yet"},
+    {"clock_is_learned", [](auto& h) { h.clock.state = ClockHealth::State::Learning; }, "clock",
+     Level::Ok, "learning the vehicle's clock"},
+    {"clock_is_followed_ahead",
+     [](auto& h) {
+       h.clock.state = ClockHealth::State::Tracking;
+       h.clock.vehicle_ahead_s = 0.5;
+     },
+     "clock", Level::Ok, "following the vehicle's clock, 0.500 s ahead of this computer's"},
+    {"clock_is_followed_behind",
+     [](auto& h) {
+       h.clock.state = ClockHealth::State::Tracking;
+       h.clock.vehicle_ahead_s = -0.5;
+     },
+     "clock", Level::Ok, "following the vehicle's clock, 0.500 s behind this computer's"},
+    {"clock_off_by_less_than_counts", [](auto& h) { h.clock.vehicle_ahead_s = 4.9; }, "clock",
+     Level::Ok, "following the vehicle's clock, 4.900 s ahead of"},
+    {"clock_off_by_more_than_counts", [](auto& h) { h.clock.vehicle_ahead_s = 5.1; }, "clock",
+     Level::Warn, "5.1 s ahead of this computer's"},
     {"clock_off_and_followed_blindly",
      [](auto& h) {
        h.clock.vehicle_ahead_s = -40.0;
@@ -225,6 +252,24 @@ const Row kRows[] = {
      "clock", Level::Ok, "not used (stamp: receive)"},
     {"clock_tells_gps_time", [](auto& h) { h.clock.vehicle_ahead_s = 18.1; }, "clock", Level::Warn,
      "set parameter leap_seconds to 18"},
+    {"clock_tells_gps_time_with_wrong_leap_seconds",
+     [](auto& h) {
+       h.clock.vehicle_ahead_s = 8.0;
+       h.leap_seconds = 10s;
+     },
+     "clock", Level::Warn, "set parameter leap_seconds to 18"},
+    {"clock_tells_utc_nearly",
+     [](auto& h) {
+       h.clock.vehicle_ahead_s = -19.4;
+       h.leap_seconds = 18s;
+     },
+     "clock", Level::Warn, "set parameter leap_seconds to 0"},
+    {"clock_tells_nothing_known",
+     [](auto& h) {
+       h.clock.vehicle_ahead_s = -19.6;
+       h.leap_seconds = 18s;
+     },
+     "clock", Level::Warn, "by GPS or NTP"},
     {"clock_in_kathmandu", [](auto& h) { h.clock.vehicle_ahead_s = 20700.2; }, "clock", Level::Warn,
      "zone UTC+5.75"},
     {"link_takes_a_command_late", [](auto& h) { h.held_back_s = 0.9; }, "commands", Level::Ok,
@@ -281,6 +326,56 @@ TEST_P(DiagnosisOf, BlamesOneLayer) {
 
 INSTANTIATE_TEST_SUITE_P(Table, DiagnosisOf, testing::ValuesIn(kRows),
                          [](const auto& row) { return std::string{row.param.name}; });
+
+TEST(ClockValues, HaveTheirUnits) {
+  Health health = healthy();
+  health.clock.offset.offset = 1500ms;
+  health.clock.offset.jitter = 12500us;
+  health.clock.offset.drift_ppm = -3.5;
+  const auto values = diagnoseClock(health).values;
+  EXPECT_THAT(values,
+              IsSupersetOf({Pair("vehicle minus computer, less the delay of the link", "0.010 s"),
+                            Pair("learned offset", "1.500000 s"), Pair("jitter", "12.500 ms"),
+                            Pair("drift", "-3.5 ppm")}));
+}
+
+/// What is told of a vehicle's clock that is ahead by so much.
+double aheadOf(std::chrono::nanoseconds vehicle_ahead) {
+  vehicle::Now now;
+  now.utc = now.stamp = 1'700'000'000s;
+  vehicle::ClockOffset::State offset;
+  offset.samples = 1;
+  offset.offset = -vehicle_ahead;
+  return *ClockWatch{}.take(now, offset, 0s, 0ns).vehicle_ahead_s;
+}
+
+TEST(ClockWatchOf, ATimeOfDayIsTakenForThatOfTheNearestDay) {
+  const std::pair<std::chrono::nanoseconds, double> kTimes[] = {
+      {11h, 39600.0},    {-11h, -39600.0},  {13h, -39600.0},   {-13h, 39600.0},
+      {24h + 1s, 1.0},   {-24h - 1s, -1.0}, {25h, 3600.0},     {-25h, -3600.0},
+      {2400h + 1s, 1.0}, {-2400h, 0.0},     {18h, -6 * 3600.0}};
+  for (const auto& [ahead, told_s] : kTimes) EXPECT_EQ(aheadOf(ahead), told_s) << ahead.count();
+}
+
+TEST(ClockWatchOf, AClockIsLearnedForTenSecondsAfterTheFirstSampleAndEachStep) {
+  using State = ClockHealth::State;
+  ClockWatch watch;
+  vehicle::Now now;
+  vehicle::ClockOffset::State offset;
+  const auto stateAt = [&](std::chrono::seconds time) {
+    now.steady = vehicle::SteadyTime{time};
+    now.utc = now.stamp = 1'700'000'000s + time;
+    return watch.take(now, offset, 0s, 0ns).state;
+  };
+  EXPECT_EQ(stateAt(100s), State::Unsynchronized);
+  offset.samples = 1;
+  EXPECT_EQ(stateAt(101s), State::Learning);
+  EXPECT_EQ(stateAt(110s), State::Learning);
+  EXPECT_EQ(stateAt(111s), State::Tracking);
+  ++offset.steps;
+  EXPECT_EQ(stateAt(120s), State::Learning);
+  EXPECT_EQ(stateAt(130s), State::Tracking);
+}
 
 TEST(Replay, WaitsForItsRecordInPeace) {
   Health health;
