@@ -72,6 +72,7 @@ TEST_F(Frames, HeadingsWrapIntoYaws) {
   EXPECT_NEAR(yawOf(M_PI_2), 0.0, kClose);
   EXPECT_NEAR(yawOf(M_PI), -M_PI_2, kClose);
   EXPECT_NEAR(yawOf(-M_PI_2), M_PI, kClose);
+  EXPECT_NEAR(yawOf(3.0 * M_PI_2), M_PI, kClose);  // west, too
   EXPECT_NEAR(yawOf(M_PI_2 + 6.0 * M_PI), 0.0, kClose);  // continuous: three turns on
   EXPECT_NEAR(headingOf_deg(0.0), 90.0, kClose);
   EXPECT_NEAR(headingOf_deg(M_PI_2), 0.0, kClose);
@@ -131,6 +132,33 @@ TEST_F(Frames, TheAccelerometersSignIsToldByADroneThatLiesLevel) {
   }
   EXPECT_EQ(AccelerometerSense(AccelerometerSign::SpecificForce).factor(), 1.0);
   EXPECT_EQ(AccelerometerSense(AccelerometerSign::Gravity).factor(), -1.0);
+}
+
+struct Reading {
+  double norm_g, tilt_rad;
+  bool counts;
+};
+
+TEST_F(Frames, TheAccelerometersSignIsToldByTenReadingsOfAboutOneG) {
+  const Reading kReadings[] = {{1.0, 0.34, true},   {1.0, -0.34, true}, {1.0, 0.36, false},
+                               {1.0, -0.36, false}, {1.19, 0.0, true},  {1.21, 0.0, false},
+                               {0.81, 0.0, true},   {0.79, 0.0, false}};
+  for (const Reading& one : kReadings) {
+    AccelerometerSense sense(AccelerometerSign::Auto);
+    for (int i = 0; i < 9; ++i) sense.take(-1.0, one.norm_g, one.tilt_rad);
+    EXPECT_FALSE(sense.factor()) << one.norm_g << " " << one.tilt_rad;
+    sense.take(-1.0, one.norm_g, one.tilt_rad);
+    EXPECT_EQ(sense.factor().has_value(), one.counts) << one.norm_g << " " << one.tilt_rad;
+  }
+}
+
+TEST_F(Frames, TheAccelerometersSignIsThatOfTheLastReadings) {
+  AccelerometerSense sense(AccelerometerSign::Auto);
+  for (int i = 0; i < 1000; ++i) sense.take(-1.0, 1.0, 0.0);
+  for (int i = 0; i < 10; ++i) sense.take(1.0, 1.0, 0.0);
+  EXPECT_EQ(sense.factor(), 1.0);
+  for (int i = 0; i < 40; ++i) sense.take(1.0, 1.0, 0.0);
+  EXPECT_EQ(sense.factor(), -1.0);
 }
 
 TEST_F(Frames, AReadingThatIsNoNumberDoesNotSpoilTheAccelerometersSign) {
@@ -213,6 +241,15 @@ TEST_F(Frames, ADvlThatKeepsDisagreeingIsReportedOnce) {
   DvlSense other;
   for (int i = 0; i < 300; ++i) EXPECT_FALSE(other.disagrees(0.3, i % 50 == 0 ? 0.3 : -0.3));
   for (int i = 0; i < 300; ++i) EXPECT_FALSE(other.disagrees(-0.3, NAN));
+}
+
+TEST_F(Frames, ADvlDisagreesWithTheHundredthReadingOfATenthOfAMeterASecond) {
+  DvlSense sense;
+  for (int i = 0; i < 99; ++i) EXPECT_FALSE(sense.disagrees(0.105, -0.105));
+  EXPECT_TRUE(sense.disagrees(-0.105, 0.105));
+  DvlSense slow;
+  for (int i = 0; i < 300; ++i) EXPECT_FALSE(slow.disagrees(0.3, -0.095));
+  for (int i = 0; i < 300; ++i) EXPECT_FALSE(slow.disagrees(0.095, -0.3));
 }
 
 TEST_F(Frames, AnAccuracyThatIsNoNumberIsUnknown) {

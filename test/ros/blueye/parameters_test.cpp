@@ -5,11 +5,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <initializer_list>
 #include <string>
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 namespace {
+
+using namespace std::chrono_literals;
 
 std::string errorOf(const std::string& host) {
   XmlRpc::XmlRpcValue parameters;
@@ -71,6 +74,54 @@ TEST(BlueyeParameters, DefaultsAreThoseOfTheInterface) {
   EXPECT_EQ(read.full_speed.sway_m_s, 0.5);
   EXPECT_EQ(read.full_speed.heave_m_s, 0.5);
   EXPECT_EQ(read.full_speed.yaw_rate_rad_s, 1.0);
+}
+
+TEST(BlueyeParameters, DefaultsOfTheConversationAreThoseOfTheInterface) {
+  const session::BlueyeOptions read = readParameters({}).session;
+  EXPECT_EQ(read.client_name, "frontseat_driver");
+  EXPECT_TRUE(read.observer);
+  EXPECT_TRUE(read.commands_enabled);
+  EXPECT_TRUE(read.sync_time);
+  EXPECT_TRUE(read.clockwise_yaw);
+  EXPECT_EQ(read.pinger_mounting, session::PingerMounting::Unset);
+  EXPECT_FALSE(read.allow_format);
+  EXPECT_FALSE(read.allow_flash);
+  EXPECT_EQ(read.command_timeout, 1s);
+  EXPECT_EQ(read.command_rate_hz, 10.0);
+  EXPECT_EQ(read.request_timeout, 2s);
+  EXPECT_EQ(read.control_timeout, 1s);
+}
+
+TEST(BlueyeParameters, DefaultsOfTheLinkAreThoseOfTheInterface) {
+  const link::ZmqClient::Options read = readParameters({}).link;
+  EXPECT_EQ(read.host, "192.168.1.101");
+  EXPECT_EQ(read.telemetry_port, 5555);
+  EXPECT_EQ(read.request_port, 5556);
+  EXPECT_EQ(read.control_port, 5557);
+  EXPECT_EQ(read.connect_timeout, 2s);
+  EXPECT_EQ(read.reconnect_min, 500ms);
+  EXPECT_EQ(read.reconnect_max, 10s);
+  EXPECT_EQ(read.silence_timeout, 5s);
+}
+
+TEST(BlueyeParameters, DefaultsOfTheConversionsAreThoseOfTheInterface) {
+  const NavigationOptions read = readParameters({}).publisher.navigation;
+  EXPECT_TRUE(read.conventions.dvl_y_right);
+  EXPECT_EQ(read.conventions.accelerometer_sign, AccelerometerSign::Auto);
+  EXPECT_TRUE(read.conventions.battery_discharge_negative);
+  EXPECT_TRUE(read.conventions.heave_velocity_down);
+  EXPECT_TRUE(read.conventions.bearings_clockwise);
+  EXPECT_TRUE(read.conventions.multibeam_tilt_up);
+  EXPECT_EQ(read.conventions.add_declination_rad, 0.0);
+  EXPECT_EQ(read.conventions.servo_min_rad, -0.7853981633974483);
+  EXPECT_EQ(read.conventions.servo_max_rad, 0.7853981633974483);
+  EXPECT_EQ(read.max_speed_m_s, 5.0);
+  EXPECT_EQ(read.max_data_age, 2s);
+  EXPECT_EQ(read.deviations.depth_m, 0.1);
+  EXPECT_EQ(read.deviations.orientation_rad, 0.05);
+  EXPECT_EQ(read.deviations.velocity_m_s, 0.1);
+  EXPECT_EQ(read.deviations.angular_rate_rad_s, 0.02);
+  EXPECT_EQ(read.deviations.acceleration_m_s2, 0.1);
 }
 
 struct Limits {
@@ -135,6 +186,12 @@ TEST(BlueyeParameters, WhatHasToFitTogetherDoes) {
   servo["servo_min"] = 0.5;
   servo["servo_max"] = 0.5;
   EXPECT_THAT(refusalOf(servo), testing::HasSubstr("an angle above servo_min"));
+  servo["servo_min"] = 3.0;
+  servo["servo_max"] = 3.1;
+  EXPECT_EQ(refusalOf(servo), "");
+  servo["servo_min"] = -3.1;
+  servo["servo_max"] = -3.0;
+  EXPECT_EQ(refusalOf(servo), "");
   EXPECT_THAT(refusalOf(with("base_frame", "odom")), testing::HasSubstr("other than odom_frame"));
   EXPECT_THAT(refusalOf(with("map_frame", "odom")), testing::HasSubstr("other than odom_frame"));
   EXPECT_THAT(refusalOf(with("odom_frame", "two words")), testing::HasSubstr("without blanks"));
