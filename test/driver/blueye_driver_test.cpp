@@ -245,6 +245,26 @@ TEST(BlueyeDriver, DrivesAndLeavesTheDroneAtRest) {
   EXPECT_FALSE(listener.connected);
 }
 
+// Time stands still while it leaves, so that no limit of it ends the wait on a busy computer.
+TEST(BlueyeDriver, ClosesItsConnectionsWhenItsGoodbyeHasBeenAnswered) {
+  Drone drone;
+  Listener listener;
+  session::BlueyeSession session({}, listener);
+  std::atomic<bool> stopping{false};
+  vehicle::Now last;
+  bool left_while_connected = false;
+  BlueyeDriver driver(drone.options(), session, listener, [&] {
+    if (!stopping) last = clocks();
+    left_while_connected = left_while_connected || (session.hasLeft() && listener.connected);
+    return last;
+  });
+  driver.start();
+  ASSERT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Denied; }));
+  stopping = true;
+  driver.stop();
+  EXPECT_TRUE(left_while_connected);
+}
+
 TEST(BlueyeDriver, AnObserverComesAndGoesWithoutAControlMessage) {
   Drone drone;
   Listener listener;
