@@ -13,6 +13,12 @@ constexpr std::chrono::milliseconds kRetry{20};
 
 void BlueyeRequests::add(const vehicle::Now& now, std::string type, std::string payload,
                          std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out) {
+  const auto as_it_is = [payload = std::move(payload)](const vehicle::Now&) { return payload; };
+  add(now, std::move(type), Payload{as_it_is}, timeout, std::move(respond), out);
+}
+
+void BlueyeRequests::add(const vehicle::Now& now, std::string type, Payload payload,
+                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out) {
   if (waiting_.size() >= kMost) {
     return respond(now, {false, {}, {}, "too many requests are waiting for the drone"}, out);
   }
@@ -39,7 +45,7 @@ void BlueyeRequests::answer(const vehicle::Now& now, const BlueyeReply& reply, B
 void BlueyeRequests::step(const vehicle::Now& now, BlueyeOutput& out) {
   if (under_way_ || waiting_.empty() || now.steady < retry_at_) return;
   const Waiting& first = waiting_.front();
-  under_way_ = out.request(now, first.type, first.payload, first.timeout);
+  under_way_ = out.request(now, first.type, first.payload(now), first.timeout);
   if (!under_way_) retry_at_ = now.steady + kRetry;
 }
 

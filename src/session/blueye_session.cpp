@@ -60,6 +60,15 @@ bool endsWith(std::string_view text, std::string_view end) {
 
 std::string_view withoutPackage(std::string_view type) { return type.substr(type.rfind('.') + 1); }
 
+/// Sets the clock of the drone to ours.
+std::string syncTime(const Now& now) {
+  pb::SyncTimeReq request;
+  auto& time = *request.mutable_time()->mutable_unix_timestamp();
+  time.set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now.utc).count());
+  time.set_nanos(static_cast<std::int32_t>((now.utc % 1s).count()));
+  return request.SerializeAsString();
+}
+
 /// The drone shows that no mission runs. Not that one is ready or has ended: that may be from
 /// before it was told to run one.
 bool showsNoMission(std::string_view payload, bool paused_will_do) {
@@ -188,7 +197,7 @@ void BlueyeSession::ping(const Now& now, BlueyeOutput& out) {
   registering_ = true;
   const pb::PingReq request;
   requests_.add(
-      now, request.GetTypeName(), {}, kPingTimeout,
+      now, request.GetTypeName(), std::string{}, kPingTimeout,
       [this](const Now& then, const BlueyeReply& reply, BlueyeOutput& o) {
         if (!reply.received) {
           registering_ = false;
@@ -401,12 +410,8 @@ void BlueyeSession::gainControl(const Now& now, BlueyeOutput& out) {
   watchdog_due_ = now.steady;
   held_.end(now.steady, true);
   if (options_.sync_time) {
-    pb::SyncTimeReq request;
-    auto& time = *request.mutable_time()->mutable_unix_timestamp();
-    time.set_seconds(std::chrono::duration_cast<std::chrono::seconds>(now.utc).count());
-    time.set_nanos(static_cast<std::int32_t>((now.utc % 1s).count()));
     requests_.add(
-        now, request.GetTypeName(), request.SerializeAsString(), options_.request_timeout,
+        now, pb::SyncTimeReq{}.GetTypeName(), syncTime, options_.request_timeout,
         [](const Now&, const BlueyeReply&, BlueyeOutput&) {}, out);
   }
   if (water_density_kg_m3_) {

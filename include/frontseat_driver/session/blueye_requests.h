@@ -43,11 +43,15 @@ class BlueyeRequests {
  public:
   /// May make new requests.
   using Respond = std::function<void(const vehicle::Now&, const BlueyeReply&, BlueyeOutput&)>;
+  /// Makes a payload when it is sent, which may be later: those before it are answered first.
+  using Payload = std::function<std::string(const vehicle::Now&)>;
 
   static constexpr std::size_t kMost = 256;
 
   /// `type` with package. A full queue answers at once.
   void add(const vehicle::Now& now, std::string type, std::string payload,
+           std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out);
+  void add(const vehicle::Now& now, std::string type, Payload payload,
            std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out);
 
   void reply(const vehicle::Now& now, std::string_view type, std::string_view payload,
@@ -67,7 +71,7 @@ class BlueyeRequests {
  private:
   struct Waiting {
     std::string type;
-    std::string payload;
+    Payload payload;
     std::chrono::milliseconds timeout;
     Respond respond;
   };

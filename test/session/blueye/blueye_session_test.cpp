@@ -198,7 +198,7 @@ TEST(BlueyeSession, SendsZeroMotionAndTheClockWhenItGainsControl) {
   ASSERT_TRUE(message.ParseFromString(sync->payload));
   const auto& time = message.time().unix_timestamp();
   const auto sent_at = sync->at.time_since_epoch() + steady_to_utc;
-  EXPECT_EQ(1s * time.seconds() + 1ns * time.nanos(), sent_at - 1ms);  // when control was gained
+  EXPECT_EQ(1s * time.seconds() + 1ns * time.nanos(), sent_at);
   EXPECT_LT(time.nanos(), 1'000'000'000);
   ASSERT_EQ(drone.controlsOf("WaterDensityCtrl").size(), 1u);
   pb::WaterDensityCtrl density;

@@ -24,14 +24,15 @@ struct Taking : BlueyeOutput {
     published.emplace_back(type.substr(type.rfind('.') + 1));
     return true;
   }
-  bool request(const vehicle::Now&, std::string_view type, std::string_view,
+  bool request(const vehicle::Now&, std::string_view type, std::string_view payload,
                std::chrono::milliseconds) override {
     requested.emplace_back(type);
+    payloads.emplace_back(payload);
     return true;
   }
   void reconnect(const vehicle::Now&, const std::string&) override {}
 
-  std::vector<std::string> published, requested;
+  std::vector<std::string> published, requested, payloads;
 };
 
 class Parts : public testing::Test {
@@ -67,6 +68,19 @@ TEST_F(Parts, ARequestUnderWayIsWaitedFor) {
   requests.step(now_, out_);
   EXPECT_THAT(out_.requested, ElementsAre("PingReq"));
   EXPECT_EQ(requests.nextStep(), SteadyTime::max());
+}
+
+TEST_F(Parts, APayloadIsMadeWhenItIsSent) {
+  const auto respond = [](const vehicle::Now&, const BlueyeReply&, BlueyeOutput&) {};
+  const auto tell = [](const vehicle::Now& now) { return std::to_string(now.utc.count()); };
+  BlueyeRequests requests;
+  requests.add(now_, "PingReq", "asked", 1s, respond, out_);
+  requests.add(now_, "SyncTimeReq", tell, 1s, respond, out_);
+  requests.step(now_, out_);
+  now_.utc = 800ns;
+  requests.reply(now_, "PingRep", "", out_);
+  requests.step(now_, out_);
+  EXPECT_THAT(out_.payloads, ElementsAre("asked", "800"));
 }
 
 struct Kind {
