@@ -143,6 +143,22 @@ TEST_F(Together, VerticalSpeedIsNotMadeOfTheJitterOfArrival) {
   EXPECT_NEAR(odometry().twist.twist.linear.z, -0.5, 1e-3);
 }
 
+TEST_F(Together, WhatComesWithinFiveMillisecondsCameAtOnce) {
+  for (const auto apart : {4ms, 6ms}) {
+    navigation_.forget();
+    at(0.0F, 0.0F, 1);
+    depth(1.0F);
+    now_.steady += apart;
+    depth(1.005F);
+    now_.steady += 100ms;
+    depth(1.055F);
+    const double since_the_second = 0.05 / 0.1;
+    const double since_the_first = 0.055 / 0.106;
+    EXPECT_NEAR(odometry().twist.twist.linear.z,
+                apart == 4ms ? -since_the_second : -since_the_first, 1e-3);
+  }
+}
+
 TEST_F(Together, VerticalSpeedOfAFastDepthIsCountedOverFiftyMilliseconds) {
   at(0.0F, 0.0F, 1);
   for (int i = 0; i <= 5; ++i) {
@@ -369,6 +385,8 @@ struct Rest {
 const Rest kRests[] = {
     {"level", {0.1, 0.2, -1.0}, {0.0F, 0.0F, 0.0F}, true},
     {"any_heading", {0.1, 0.2, -1.0}, {0.0F, 0.0F, 150.0F}, true},
+    {"hardly_rolled", {0.0, 0.0, -1.0}, {15.0F, 0.0F, 0.0F}, true},
+    {"hardly_pitched", {0.0, 0.0, -1.0}, {0.0F, 15.0F, 0.0F}, true},
     {"rolled", {0.0, 0.0, -1.0}, {30.0F, 0.0F, 0.0F}, false},
     {"pitched", {0.0, 0.0, -1.0}, {0.0F, 30.0F, 0.0F}, false},
     {"a_g_in_all_ahead", {0.8, 0.0, -0.6}, {0.0F, 0.0F, 0.0F}, true},
