@@ -3,10 +3,12 @@
 #include "blueye/navigation.h"
 
 #include <gtest/gtest.h>
+#include <tf2/LinearMath/Quaternion.h>
 
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 namespace {
@@ -74,6 +76,45 @@ TEST_F(Together, OdometryHasPositionDepthHeadingAndRates) {
   EXPECT_NEAR(out.twist.twist.angular.z, -0.125, kClose);
   EXPECT_EQ(out.twist.covariance[21], kUnknown);  // no gyro: roll rate not known
   ASSERT_TRUE(navigation_.transform(out));
+}
+
+tf2::Vector3 turned(const nav_msgs::Odometry& odometry, const tf2::Vector3& axis) {
+  const geometry_msgs::Quaternion& q = odometry.pose.pose.orientation;
+  return tf2::quatRotate({q.x, q.y, q.z, q.w}, axis);
+}
+
+/// The axes to the bow and to port of a vehicle with roll 10, pitch 20 and this heading, in
+/// degrees, east, north and up, by their geometry.
+void expectTilted(const nav_msgs::Odometry& odometry, double heading_deg) {
+  const double roll = M_PI / 18.0;
+  const double pitch = M_PI / 9.0;
+  const double heading = heading_deg * M_PI / 180.0;
+  const tf2::Vector3 bow = turned(odometry, {1.0, 0.0, 0.0});
+  EXPECT_NEAR(bow.x(), std::sin(heading) * std::cos(pitch), kClose);
+  EXPECT_NEAR(bow.y(), std::cos(heading) * std::cos(pitch), kClose);
+  EXPECT_NEAR(bow.z(), std::sin(pitch), kClose);
+  EXPECT_NEAR(turned(odometry, {0.0, 1.0, 0.0}).z(), std::sin(roll) * std::cos(pitch), kClose);
+}
+
+TEST_F(Together, OdometryIsTiltedAsTheAttitudeAndHeadsAsTheEstimate) {
+  attitude(10.0F, 20.0F, 150.0F);
+  at(4.0F, 3.0F, 1);
+  estimate().set_heading(static_cast<float>(M_PI / 6.0));
+  expectTilted(odometry(), 30.0);
+  now_.steady += 3s;  // the attitude is not fresh any more
+  const auto out = odometry();
+  EXPECT_NEAR(turned(out, {1.0, 0.0, 0.0}).z(), 0.0, kClose);
+  EXPECT_NEAR(turned(out, {0.0, 1.0, 0.0}).z(), 0.0, kClose);
+  EXPECT_EQ(out.pose.pose.position.z, 0.0);
+}
+
+TEST_F(Together, WithoutAValidEstimateOdometryHeadsAsTheAttitudeWithTheDeclination) {
+  NavigationOptions options;
+  options.conventions.add_declination_rad = M_PI / 36.0;  // 5 degrees to the east
+  navigation_ = Navigation{options};
+  attitude(10.0F, 20.0F, 150.0F);
+  estimate().set_is_valid(false);
+  expectTilted(odometry(), 155.0);
 }
 
 TEST_F(Together, AnEstimateThatIsNotValidGivesAttitudeAndDepthAlone) {
@@ -236,6 +277,38 @@ TEST_F(Together, OdometryNeverJumpsWhenTheEstimateIsReset) {
   now_.steady += 1s;
   at(1.0F, 0.0F, 1);
   EXPECT_NEAR(odometry().pose.pose.position.x, 11.0, kClose);
+}
+
+TEST_F(Together, OdometryNeverJumpsHoweverOftenTheEstimateIsReset) {
+  at(10.0F, 20.0F, 100);
+  odometry();
+  for (const float x : {1.0F, 3.0F}) {
+    now_.steady += 100ms;
+    at(x, 2.0F * x + 1.0F, 0);
+    odometry();
+    now_.steady += 100ms;
+    at(x, 2.0F * x + 1.0F, 50);
+    const auto out = odometry();
+    EXPECT_NEAR(out.pose.pose.position.x, 10.0, kClose);
+    EXPECT_NEAR(out.pose.pose.position.y, 20.0, kClose);
+  }
+}
+
+TEST_F(Together, StepsTooLargeAddUpInTheMap) {
+  at(0.0F, 0.0F, 1);
+  estimate().mutable_global_position()->set_latitude(63.0);
+  estimate().mutable_global_position()->set_longitude(10.0);
+  odometry();
+  estimate().clear_global_position();
+  for (const auto& [easting_m, northing_m] :
+       {std::pair{30.0F, 40.0F}, {80.0F, 40.0F}, {80.0F, 100.0F}}) {
+    now_.steady += 100ms;
+    at(easting_m, northing_m, 1);
+    odometry();
+    const auto map = navigation_.mapTransform(ros::Time(1))->transform.translation;
+    EXPECT_NEAR(map.x, easting_m, kClose);
+    EXPECT_NEAR(map.y, northing_m, kClose);
+  }
 }
 
 TEST_F(Together, AStepTooLargeGoesIntoTheMap) {
