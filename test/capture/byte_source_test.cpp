@@ -153,7 +153,7 @@ TEST(FileSource, NamesTheRatesThatThereAre) {
 
 /// In a process of its own, since nothing takes the end back.
 TEST(FileSourceDeathTest, ASignalEndsAReadThatWaits) {
-  const auto readUntilTold = [] {
+  const auto read_until_told = [] {
     Terminal terminal;
     const auto source = FileSource::openSerial(terminal.path(), 9600);
     struct sigaction interrupt {};
@@ -168,7 +168,7 @@ TEST(FileSourceDeathTest, ASignalEndsAReadThatWaits) {
     char room[8];
     std::exit(source->read(room, sizeof room) == 0 ? 0 : 1);
   };
-  EXPECT_EXIT(readUntilTold(), testing::ExitedWithCode(0), "");
+  EXPECT_EXIT(read_until_told(), testing::ExitedWithCode(0), "");
 }
 
 TEST(FileSource, TakesOnlyATerminalForSerial) {

@@ -108,7 +108,7 @@ TEST(Driver, AFewSentencesOnTheirWayAreNoCongestion) {
   const auto deaf = vehicle.accept();
   const std::string sentence = "$BPVER*1A\r\n";
   std::size_t bytes_sent = 0;
-  const auto congestedAfterOneMore = [&] {
+  const auto congested_after_one_more = [&] {
     std::promise<bool> congested;
     rig.driver.post([&](const Now& now) {
       if (rig.driver.output().send(now, sentence)) bytes_sent += sentence.size();
@@ -116,7 +116,7 @@ TEST(Driver, AFewSentencesOnTheirWayAreNoCongestion) {
     });
     return congested.get_future().get();
   };
-  EXPECT_TRUE(waitUntil(congestedAfterOneMore));
+  EXPECT_TRUE(waitUntil(congested_after_one_more));
   EXPECT_GT(bytes_sent, 240U);  // three sentences of 80 bytes
   rig.driver.stop();
 }

@@ -362,19 +362,19 @@ TEST(ClockWatchOf, AClockIsLearnedForTenSecondsAfterTheFirstSampleAndEachStep) {
   ClockWatch watch;
   vehicle::Now now;
   vehicle::ClockOffset::State offset;
-  const auto stateAt = [&](std::chrono::seconds time) {
+  const auto state_at = [&](std::chrono::seconds time) {
     now.steady = vehicle::SteadyTime{time};
     now.utc = now.stamp = 1'700'000'000s + time;
     return watch.take(now, offset, 0s, 0ns).state;
   };
-  EXPECT_EQ(stateAt(100s), State::Unsynchronized);
+  EXPECT_EQ(state_at(100s), State::Unsynchronized);
   offset.samples = 1;
-  EXPECT_EQ(stateAt(101s), State::Learning);
-  EXPECT_EQ(stateAt(110s), State::Learning);
-  EXPECT_EQ(stateAt(111s), State::Tracking);
+  EXPECT_EQ(state_at(101s), State::Learning);
+  EXPECT_EQ(state_at(110s), State::Learning);
+  EXPECT_EQ(state_at(111s), State::Tracking);
   ++offset.steps;
-  EXPECT_EQ(stateAt(120s), State::Learning);
-  EXPECT_EQ(stateAt(130s), State::Tracking);
+  EXPECT_EQ(state_at(120s), State::Learning);
+  EXPECT_EQ(state_at(130s), State::Tracking);
 }
 
 TEST(Replay, WaitsForItsRecordInPeace) {

@@ -1212,7 +1212,9 @@ TEST_F(Builder, ShutdownIsAMinuteAfterItWasSent) {
   Parameters parameters = parametersFor(Dialect::Sandshark);
   parameters.stamp = StampMode::Vehicle;
   MessageBuilder builder(parameters);
-  const ShutdownNotice out = builder.shutdownNotice({11h, 60s}, at(0s));
+  vehicle::Shutdown shutdown;
+  shutdown.sent_at = 11h;
+  const ShutdownNotice out = builder.shutdownNotice(shutdown, at(0s));
   EXPECT_EQ(out.header.stamp, toRosTime(kNoon - 1h));
   EXPECT_EQ(out.earliest_power_off, toRosTime(kNoon - 59min));
 }

@@ -22,11 +22,11 @@ std::string brokenBy(const Plan& plan) { return Mission{plan}.run(); }
 std::optional<Failure> makeRuns(const Runs& runs, Totals& totals,
                                 const std::function<void(std::uint64_t)>& progress) {
   std::mutex mutex;
-  const auto dialectFor = [&](std::uint64_t seed) {
+  const auto dialect_for = [&](std::uint64_t seed) {
     return runs.dialect.value_or(dialectOf(seed));
   };
   const auto broken = firstBroken(runs.first, runs.count, runs.threads, [&](std::uint64_t seed) {
-    Mission mission{planFor(seed, dialectFor(seed), runs.hours, runs.pace)};
+    Mission mission{planFor(seed, dialect_for(seed), runs.hours, runs.pace)};
     std::string found = mission.run();
     const std::lock_guard<std::mutex> lock(mutex);
     totals.add(mission.totals());
@@ -34,7 +34,7 @@ std::optional<Failure> makeRuns(const Runs& runs, Totals& totals,
     return found;
   });
   if (!broken) return std::nullopt;
-  return Failure{broken->seed, dialectFor(broken->seed), runs.hours, runs.pace, broken->broken};
+  return Failure{broken->seed, dialect_for(broken->seed), runs.hours, runs.pace, broken->broken};
 }
 
 Plan planOf(const Failure& failure) {
