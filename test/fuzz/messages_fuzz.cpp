@@ -1,8 +1,7 @@
 #include <array>
 #include <chrono>
-#include <string>
-#include <type_traits>
-#include <utility>
+#include <string_view>
+#include <variant>
 
 #include "frontseat_driver/nmea/sentence.h"
 #include "frontseat_driver/protocol/message.h"
@@ -72,8 +71,8 @@ class Vehicle {
     if (!sentence) return;
     const auto reading = protocol::decode(*sentence);
     if (!reading) return;
-    if (const auto sent_at = session::sentAt(reading->message))
-      take(vehicle::ClockSample{*sent_at});
+    const auto sent_at = session::sentAt(reading->message);
+    if (sent_at) take(vehicle::ClockSample{*sent_at});
     if (const auto event = session::toVehicle(reading->message)) take(*event);
   }
 

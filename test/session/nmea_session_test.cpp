@@ -275,7 +275,6 @@ TEST_F(NmeaSessionTest, TellsWhoIsInControlAtOnce) {
   EXPECT_LE(session.nextStep(), now().steady);
 }
 
-// Else the driver's thread would go round without a pause.
 TEST(NmeaOptions, DefaultsAreThoseOfTheInterface) {
   const NmeaOptions options;
   EXPECT_EQ(options.command_timeout, 1s);
@@ -286,6 +285,7 @@ TEST(NmeaOptions, DefaultsAreThoseOfTheInterface) {
   EXPECT_EQ(options.status_rate_hz, 1.0);
 }
 
+// Else the driver's thread would go round without a pause.
 TEST_F(NmeaSessionTest, NothingIsDueBeforeTheFirstConnection) {
   NmeaSession session{NmeaOptions{}};
   session.step(now(), out_);
