@@ -29,6 +29,15 @@ void Check::finite(const char* field, double value) {
   refuse(std::string{field} + " is " + std::to_string(value) + "; a finite number is accepted");
 }
 
+void Check::finite(const geometry_msgs::Twist& twist) {
+  finite("linear.x", twist.linear.x);
+  finite("linear.y", twist.linear.y);
+  finite("linear.z", twist.linear.z);
+  finite("angular.x", twist.angular.x);
+  finite("angular.y", twist.angular.y);
+  finite("angular.z", twist.angular.z);
+}
+
 void Check::angle_rad(const char* field, double value) {
   finite(field, value);
   within(field, value, -kMostAngle_rad, kMostAngle_rad);

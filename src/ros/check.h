@@ -1,5 +1,7 @@
 #pragma once
 
+#include <geometry_msgs/Twist.h>
+
 #include <string>
 
 namespace frontseat_driver::ros_layer {
@@ -14,6 +16,7 @@ class Check {
   void within(const char* field, double value, double low, double high);
 
   void finite(const char* field, double value);
+  void finite(const geometry_msgs::Twist& twist);
 
   /// Any number of turns, but no angle that nobody meant.
   void angle_rad(const char* field, double value);

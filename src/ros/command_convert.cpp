@@ -149,12 +149,7 @@ Converted toCommand(const Course& course, NorthOffset north_offset_deg) {
 Converted toCommand(const geometry_msgs::Twist& velocity, double max_speed_m_s,
                     double max_yaw_rate_rad_s) {
   Check check;
-  check.finite("linear.x", velocity.linear.x);
-  check.finite("linear.y", velocity.linear.y);
-  check.finite("linear.z", velocity.linear.z);
-  check.finite("angular.x", velocity.angular.x);
-  check.finite("angular.y", velocity.angular.y);
-  check.finite("angular.z", velocity.angular.z);
+  check.finite(velocity);
   const double thrust = std::clamp(velocity.linear.x / max_speed_m_s, -1.0, 1.0);
   const double yaw_rate = std::clamp(velocity.angular.z, -max_yaw_rate_rad_s, max_yaw_rate_rad_s);
   return resultOf(check, vehicle::HelmCommand{thrust, 0.0 - yaw_rate});

@@ -826,12 +826,7 @@ ConvertedMotion toCommand(const MotionInput& in) {
 
 ConvertedMotion toCommand(const geometry_msgs::Twist& in, const FullSpeed& full) {
   Check check;
-  check.finite("linear.x", in.linear.x);
-  check.finite("linear.y", in.linear.y);
-  check.finite("linear.z", in.linear.z);
-  check.finite("angular.x", in.angular.x);
-  check.finite("angular.y", in.angular.y);
-  check.finite("angular.z", in.angular.z);
+  check.finite(in);
   if (!check.refusal().empty()) return check.refusal();
   const auto share = [](double value, double most) { return std::clamp(value / most, -1.0, 1.0); };
   vehicle::MotionCommand out;
