@@ -76,12 +76,13 @@ NmeaBridge::NmeaBridge(ros::NodeHandle node, ros::NodeHandle private_node, std::
   });
 }
 
+// The driver first: taking back topics and services waits for the master, which may be silent.
 // Tasks refer to the input and the services, so these stay until no task can run any more.
 NmeaBridge::~NmeaBridge() {
   subscribers_->close();
+  if (driver_) driver_->stop();
   services_->close();
   input_->close();
-  if (driver_) driver_->stop();
   if (replay_) replay_->close();
 }
 

@@ -90,10 +90,10 @@ Bridge::Bridge(ros::NodeHandle node, ros::NodeHandle private_node, std::string n
 Bridge::~Bridge() {
   diagnostics_timer_.stop();
   if (expected_) expected_->close();
+  if (driver_) driver_->stop();  // the rest waits for the master, which may be silent
   services_->close();
   input_->close();
   replay_.shutdown();
-  if (driver_) driver_->stop();
 }
 
 void Bridge::post(Task task) {

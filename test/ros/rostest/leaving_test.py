@@ -3,9 +3,13 @@
 more, and then the connection is closed in order."""
 
 import signal
+import socket
+import threading
 import time
 import unittest
+import urllib.parse
 
+import rosgraph
 import rosnode
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
@@ -156,6 +160,64 @@ class WithTheProgram(Leaving):
     def test_rosnode_kill_of_the_manager(self):
         self.end(NodeletDriver, lambda driver: rosnode.kill_nodes([driver.manager.name]),
                  ROS_SHUTDOWN_S)
+
+
+class MasterLink:
+    """A way to the ROS master on which nothing passes any more when it is told so: the master's
+    host has gone, and no one says so."""
+
+    def __init__(self):
+        master = urllib.parse.urlparse(rosgraph.get_master_uri())
+        self._master = (master.hostname, master.port)
+        self._passes = threading.Event()
+        self._passes.set()
+        self._listener = socket.create_server(("127.0.0.1", 0))
+        self.argument = "__master:=http://127.0.0.1:%d" % self._listener.getsockname()[1]
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def hold(self):
+        self._passes.clear()
+
+    def release(self):
+        self._passes.set()
+
+    def _serve(self):
+        while True:
+            near = self._listener.accept()[0]
+            far = socket.create_connection(self._master)
+            for ends in ((near, far), (far, near)):
+                threading.Thread(target=self._forward, args=ends, daemon=True).start()
+
+    def _forward(self, source, sink):
+        try:
+            while True:
+                data = source.recv(65536)
+                self._passes.wait()
+                if not data:
+                    return sink.shutdown(socket.SHUT_WR)
+                sink.sendall(data)
+        except OSError:
+            return
+
+
+class WithASilentMaster(Leaving):
+    def test_interrupt(self):
+        master = MasterLink()
+
+        def node(namespace, parameters):
+            return NodeDriver(namespace, parameters, [master.argument])
+
+        vehicles = self.start(node)
+        self.addCleanup(master.release)
+        master.hold()
+        for vehicle in vehicles:
+            vehicle.command()
+            since = time.monotonic()
+            vehicle.driver.process.send_signal(signal.SIGINT)
+            self.assert_left(vehicle, since, LIMIT_S)
+        master.release()
+        for vehicle in vehicles:
+            self.assertEqual(0, vehicle.driver.process.wait())
 
 
 class WithoutMaster(unittest.TestCase):
