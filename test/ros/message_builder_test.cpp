@@ -880,6 +880,38 @@ TEST_F(Builder, RawImuWithoutAnAxisIsZeroAndUnknownThere) {
   expectDiagonal(imu.angular_velocity_covariance, {kRateVariance, kRateVariance, kUnknown});
 }
 
+TEST_F(Builder, RawImuOfOneAxisIsThatAxis) {
+  vehicle::RawImu raw;
+  raw.rate_y_deg_s = 2.0;
+  raw.acceleration_z = -9.75;
+  boat_.take(raw, at(0s));
+  auto imu = *boat_.rawImu();
+  expectNear(imu.angular_velocity, 0.0, -2.0 * kOneDegree, 0.0);
+  expectDiagonal(imu.angular_velocity_covariance, {kUnknown, kRateVariance, kUnknown});
+  expectNear(imu.linear_acceleration, 0.0, 0.0, 9.75);
+  expectDiagonal(imu.linear_acceleration_covariance, {kUnknown, kUnknown, kAccelerationVariance});
+
+  raw = {};
+  raw.rate_z_deg_s = 3.0;
+  raw.acceleration_x = 0.5;
+  boat_.take(raw, at(0s));
+  imu = *boat_.rawImu();
+  expectNear(imu.angular_velocity, 0.0, 0.0, -3.0 * kOneDegree);
+  expectDiagonal(imu.angular_velocity_covariance, {kUnknown, kUnknown, kRateVariance});
+  expectNear(imu.linear_acceleration, 0.5, 0.0, 0.0);
+  expectDiagonal(imu.linear_acceleration_covariance, {kAccelerationVariance, kUnknown, kUnknown});
+
+  raw = {};
+  raw.rate_x_deg_s = 1.0;
+  raw.acceleration_y = 0.25;
+  boat_.take(raw, at(0s));
+  imu = *boat_.rawImu();
+  expectNear(imu.angular_velocity, kOneDegree, 0.0, 0.0);
+  expectDiagonal(imu.angular_velocity_covariance, {kRateVariance, kUnknown, kUnknown});
+  expectNear(imu.linear_acceleration, 0.0, -0.25, 0.0);
+  expectDiagonal(imu.linear_acceleration_covariance, {kUnknown, kAccelerationVariance, kUnknown});
+}
+
 TEST_F(Builder, BlankRawImuIsNotPublished) {
   boat_.take(vehicle::RawImu{}, at(0s));
   EXPECT_FALSE(boat_.rawImu());
