@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "blueye/messages.h"
+#include "blueye/senses.h"
 #include "frontseat_driver/vehicle/clock.h"
 #include "frontseat_driver/vehicle/event.h"
 

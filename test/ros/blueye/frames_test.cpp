@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "blueye/messages.h"
+#include "blueye/senses.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 namespace {
@@ -72,7 +73,7 @@ TEST_F(Frames, HeadingsWrapIntoYaws) {
   EXPECT_NEAR(yawOf(M_PI_2), 0.0, kClose);
   EXPECT_NEAR(yawOf(M_PI), -M_PI_2, kClose);
   EXPECT_NEAR(yawOf(-M_PI_2), M_PI, kClose);
-  EXPECT_NEAR(yawOf(3.0 * M_PI_2), M_PI, kClose);  // west, too
+  EXPECT_NEAR(yawOf(3.0 * M_PI_2), M_PI, kClose);        // west, too
   EXPECT_NEAR(yawOf(M_PI_2 + 6.0 * M_PI), 0.0, kClose);  // continuous: three turns on
   EXPECT_NEAR(headingOf_deg(0.0), 90.0, kClose);
   EXPECT_NEAR(headingOf_deg(M_PI_2), 0.0, kClose);
