@@ -25,6 +25,12 @@ std::optional<double> bottomSeen(const std::optional<double>& altitude_m) {
   return altitude_m && *altitude_m != 0.0 ? altitude_m : std::nullopt;
 }
 
+// Field vehicles leave the id out and send temperature 0 when they have none (field notes, CPRBS).
+std::optional<double> temperatureOf(const protocol::kingfisher::BatteryVoltage& battery) {
+  const bool none = !battery.battery_id && battery.temperature_c == 0.0;
+  return none ? std::nullopt : battery.temperature_c;
+}
+
 struct ToEvent {
   using Result = std::optional<Event>;
 
@@ -82,7 +88,7 @@ struct ToEvent {
     out.stack_v = in.stack_v;
     out.lowest_cell_v = in.lowest_cell_v;
     out.highest_cell_v = in.highest_cell_v;
-    out.temperature_c = in.temperature_c;
+    out.temperature_c = temperatureOf(in);
     return out;
   }
 

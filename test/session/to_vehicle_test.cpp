@@ -151,6 +151,22 @@ TEST(ToVehicle, VoltagesOfABatteryKeepTheirNames) {
   EXPECT_EQ(out.temperature_c, 4.0);
 }
 
+TEST(ToVehicle, ABatteryWithoutIdAndTemperatureZeroHasNone) {
+  protocol::kingfisher::BatteryVoltage battery;
+  battery.stack_v = 15.1;
+  battery.temperature_c = 0.0;
+  EXPECT_EQ(as<vehicle::Battery>(battery).temperature_c, std::nullopt);
+  battery.temperature_c = -0.5;
+  EXPECT_EQ(as<vehicle::Battery>(battery).temperature_c, -0.5);
+}
+
+TEST(ToVehicle, ABatteryWithIdMayHaveTemperatureZero) {
+  protocol::kingfisher::BatteryVoltage battery;
+  battery.battery_id = 1;
+  battery.temperature_c = 0.0;
+  EXPECT_EQ(as<vehicle::Battery>(battery).temperature_c, 0.0);
+}
+
 TEST(ToVehicle, AFixKeepsItsNames) {
   protocol::gps::Fix fix;
   fix.quality = 2;
