@@ -36,6 +36,8 @@ void waitForTheEnd() {
 int main(int argc, char** argv) {
   std::signal(SIGINT, onSignal);
   std::signal(SIGTERM, onSignal);
+  // The terminal or the ssh session is gone; after nohup that is not to matter.
+  if (std::signal(SIGHUP, onSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
   ros::init(argc, argv, NODE_NAME, ros::init_options::NoSigintHandler);
   {
     nodelet::Loader loader{false};

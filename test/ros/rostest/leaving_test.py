@@ -148,6 +148,12 @@ class WithTheProgram(Leaving):
     def test_terminate(self):
         self.signal(NodeDriver, signal.SIGTERM, LIMIT_S)
 
+    def test_hang_up(self):
+        """Its terminal or ssh session is gone."""
+        before = signal.signal(signal.SIGHUP, signal.SIG_DFL)  # else it is as after nohup
+        self.addCleanup(signal.signal, signal.SIGHUP, before)
+        self.signal(NodeDriver, signal.SIGHUP, LIMIT_S)
+
     def test_unload(self):
         self.end(NodeletDriver, lambda driver: driver.unload(), LIMIT_S)
 
