@@ -9,20 +9,24 @@ namespace {
 // How soon a request is tried again that the link did not take: a connection is being made.
 constexpr std::chrono::milliseconds kRetry{20};
 
+constexpr const char* kExpired = "it was not sent: those before it took the drone too long";
+
 }  // namespace
 
 void BlueyeRequests::add(const vehicle::Now& now, std::string type, std::string payload,
-                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out) {
+                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out,
+                         vehicle::SteadyTime expires) {
   const auto as_it_is = [payload = std::move(payload)](const vehicle::Now&) { return payload; };
-  add(now, std::move(type), Payload{as_it_is}, timeout, std::move(respond), out);
+  add(now, std::move(type), Payload{as_it_is}, timeout, std::move(respond), out, expires);
 }
 
 void BlueyeRequests::add(const vehicle::Now& now, std::string type, Payload payload,
-                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out) {
+                         std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out,
+                         vehicle::SteadyTime expires) {
   if (waiting_.size() >= kMost) {
     return respond(now, {false, {}, {}, "too many requests are waiting for the drone"}, out);
   }
-  waiting_.push_back({std::move(type), std::move(payload), timeout, std::move(respond)});
+  waiting_.push_back({std::move(type), std::move(payload), timeout, std::move(respond), expires});
 }
 
 void BlueyeRequests::reply(const vehicle::Now& now, std::string_view type, std::string_view payload,
@@ -43,7 +47,11 @@ void BlueyeRequests::answer(const vehicle::Now& now, const BlueyeReply& reply, B
 }
 
 void BlueyeRequests::step(const vehicle::Now& now, BlueyeOutput& out) {
-  if (under_way_ || waiting_.empty() || now.steady < retry_at_) return;
+  if (under_way_) return;
+  while (!waiting_.empty() && now.steady >= waiting_.front().expires) {
+    answer(now, {false, {}, {}, kExpired}, out);
+  }
+  if (waiting_.empty() || now.steady < retry_at_) return;
   const Waiting& first = waiting_.front();
   under_way_ = out.request(now, first.type, first.payload(now), first.timeout);
   if (!under_way_) retry_at_ = now.steady + kRetry;

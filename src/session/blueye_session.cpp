@@ -690,7 +690,7 @@ void BlueyeSession::request(const Now& now, std::string type, std::string payloa
       [respond = std::move(respond)](const Now&, const BlueyeReply& reply, BlueyeOutput&) {
         respond(reply);
       },
-      out);
+      out, now.steady + timeout);
 }
 
 void BlueyeSession::setRate(const Now& now, const std::string& message, double rate_hz,

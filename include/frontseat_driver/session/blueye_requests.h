@@ -38,7 +38,8 @@ struct BlueyeReply {
 };
 
 /// One request at a time, since the drone answers in order; the others wait. Every request is
-/// answered exactly once: by the reply, by word that there is none, or by failAll().
+/// answered exactly once: by the reply, by word that there is none or that it expired, or by
+/// failAll().
 class BlueyeRequests {
  public:
   /// May make new requests.
@@ -48,11 +49,14 @@ class BlueyeRequests {
 
   static constexpr std::size_t kMost = 256;
 
-  /// `type` with package. A full queue answers at once.
+  /// `type` with package. A full queue answers at once. What has not been sent at `expires` is not
+  /// sent any more.
   void add(const vehicle::Now& now, std::string type, std::string payload,
-           std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out);
+           std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out,
+           vehicle::SteadyTime expires = vehicle::SteadyTime::max());
   void add(const vehicle::Now& now, std::string type, Payload payload,
-           std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out);
+           std::chrono::milliseconds timeout, Respond respond, BlueyeOutput& out,
+           vehicle::SteadyTime expires = vehicle::SteadyTime::max());
 
   void reply(const vehicle::Now& now, std::string_view type, std::string_view payload,
              BlueyeOutput& out);
@@ -74,6 +78,7 @@ class BlueyeRequests {
     Payload payload;
     std::chrono::milliseconds timeout;
     Respond respond;
+    vehicle::SteadyTime expires;
   };
 
   void answer(const vehicle::Now& now, const BlueyeReply& reply, BlueyeOutput& out);

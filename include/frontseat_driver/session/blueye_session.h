@@ -137,7 +137,8 @@ class BlueyeSession {
   void control(const vehicle::Now& now, ConfirmedControls::Control control, BlueyeOutput& out,
                std::optional<SteadyTime> received = std::nullopt);
 
-  /// Any request, answered with the reply or the reason why there is none.
+  /// Any request, answered with the reply or the reason why there is none. One that has waited for
+  /// `timeout` for those before it is not sent any more: whoever asked may have given up on it.
   void request(const vehicle::Now& now, std::string type, std::string payload,
                std::chrono::milliseconds timeout, RespondReply respond, BlueyeOutput& out);
 

@@ -11,6 +11,10 @@
 namespace frontseat_driver::session {
 namespace {
 
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
 using vehicle::DroneCommand;
 using vehicle::GripperCommand;
 using vehicle::MotionCommand;
@@ -216,6 +220,53 @@ TEST(BlueyeRequests, WaitForOneAnotherAndAreNeverMoreThan256) {
   drone.run(600ms);
   EXPECT_EQ(answered, 257);
   EXPECT_EQ(refusal, "");
+}
+
+// Whoever asked is told after twice the time limit that there was no answer, and a mission that is
+// loaded later, unawares, is worse than none.
+TEST(BlueyeRequests, ThatWaitedForTheirWholeTimeLimitAreNotSentAnyMore) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.run(1s);
+  drone.requests.clear();
+  std::vector<std::string> answers;
+  const auto ask = [&](const char* type, std::chrono::milliseconds timeout) {
+    drone.session.request(
+        drone.now, type, {}, timeout,
+        [&answers, type](const BlueyeReply& reply) {
+          answers.push_back(std::string{type} + ": " + reply.reason);
+        },
+        drone);
+  };
+  drone.hold();
+  ask("SetCameraParametersReq", 5s);
+  ask("SetMissionReq", 2s);
+  ask("SetHeadingModeReq", 2100ms);
+  ask("GetMissionReq", 5s);
+  drone.run(2s);
+  EXPECT_THAT(answers, IsEmpty());
+  drone.letGo();
+  drone.run(20ms);
+  EXPECT_THAT(drone.requestNames(),
+              ElementsAre("SetCameraParametersReq", "SetHeadingModeReq", "GetMissionReq"));
+  EXPECT_THAT(answers, ElementsAre("SetCameraParametersReq: ",
+                                   AllOf(HasSubstr("SetMissionReq: "), HasSubstr("not sent")),
+                                   "SetHeadingModeReq: ", "GetMissionReq: "));
+}
+
+TEST(BlueyeRequests, ThatALinkDoesNotTakeEndWithTheirTimeLimit) {
+  ScriptedDrone drone;
+  drone.connect();
+  drone.run(1s);
+  drone.takes_requests = false;
+  std::string refusal;
+  drone.session.request(
+      drone.now, "GetMissionReq", {}, 2s,
+      [&refusal](const BlueyeReply& reply) { refusal = reply.reason; }, drone);
+  drone.run(1980ms);
+  EXPECT_EQ(refusal, "");
+  drone.run(40ms);
+  EXPECT_THAT(refusal, HasSubstr("not sent"));
 }
 
 }  // namespace
