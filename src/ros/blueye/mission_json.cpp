@@ -1,9 +1,13 @@
 #include "blueye/mission_json.h"
 
+#include <blueye/telemetry.pb.h>
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <algorithm>
+#include <boost/crc.hpp>
+
+#include "frontseat_driver/protocol/blueye_parse.h"
 
 namespace frontseat_driver::ros_layer::blueye_layer {
 
@@ -35,6 +39,14 @@ bool tellsAutoContinue(const Value& instruction) {
   return fields.count("auto_continue") != 0 || fields.count("autoContinue") != 0;
 }
 
+/// Not 0, which the wire leaves out, and positive also for whoever takes it for a signed number.
+std::uint32_t idFor(const std::string& content) {
+  constexpr std::uint32_t kMost = 2147483647;
+  boost::crc_32_type sum;
+  sum.process_bytes(content.data(), content.size());
+  return sum.checksum() % kMost + 1;
+}
+
 }  // namespace
 
 MissionRequest toMissionRequest(const protocol::BlueyeCatalogue& catalogue,
@@ -58,7 +70,26 @@ MissionRequest toMissionRequest(const protocol::BlueyeCatalogue& catalogue,
     const bool told = tellsAutoContinue(written->values(i));
     if (!told) mission.mutable_instructions(i)->set_auto_continue(true);
   }
+  if (mission.id() == 0) mission.set_id(idFor(mission.SerializeAsString()));
   return request;
+}
+
+bool MissionVerdict::shownBy(std::string_view payload) {
+  pb::MissionStatusTel told;
+  if (!protocol::parse(payload, told)) return false;
+  const pb::MissionStatus& status = told.mission_status();
+  const bool tells_another = status.id() != 0 && status.id() != id_;
+  kept_id_ = status.state() == pb::MISSION_STATE_READY && tells_another ? status.id() : 0;
+  if (kept_id_ != 0) return false;
+  state_ = status.state();
+  return ready() || state_ == pb::MISSION_STATE_FAILED_TO_LOAD_MISSION;
+}
+
+std::string MissionVerdict::message(const std::string& late) const {
+  if (late.empty()) return ready() ? "the mission is ready" : "the drone cannot load it";
+  if (kept_id_ == 0) return late;
+  return "the drone is ready for mission " + std::to_string(kept_id_) + ", not for mission " +
+         std::to_string(id_) + " that was sent; clear it and load again";
 }
 
 }  // namespace frontseat_driver::ros_layer::blueye_layer

@@ -268,26 +268,15 @@ void Services::addMissions() {
 Services::Answer Services::loadMission(const std::string& text) const {
   const MissionRequest wanted = toMissionRequest(catalogue_, text);
   if (const auto* refusal = std::get_if<std::string>(&wanted)) return {false, *refusal, {}, {}};
-  return ask([this, payload = std::get<pb::SetMissionReq>(wanted).SerializeAsString()](
+  const auto& mission = std::get<pb::SetMissionReq>(wanted);
+  return ask([this, payload = mission.SerializeAsString(), id = mission.mission().id()](
                  const auto& now, auto& out, const Respond& respond) {
     const std::string refusal = session_.refusal();
     if (!refusal.empty()) return respond({false, refusal, {}, {}});
-    const auto verdict = std::make_shared<pb::MissionState>(pb::MISSION_STATE_UNSPECIFIED);
-    const auto shows = [verdict](std::string_view told_bytes) {
-      pb::MissionStatusTel told;
-      if (!parse(told_bytes, told)) return false;
-      *verdict = told.mission_status().state();
-      return *verdict == pb::MISSION_STATE_READY ||
-             *verdict == pb::MISSION_STATE_FAILED_TO_LOAD_MISSION;
-    };
+    const auto verdict = std::make_shared<MissionVerdict>(id);
+    const auto shows = [verdict](std::string_view told) { return verdict->shownBy(told); };
     const auto told = [verdict, respond](const std::string& late) {
-      const bool good = late.empty() && *verdict == pb::MISSION_STATE_READY;
-      respond({good,
-               good           ? "the mission is ready"
-               : late.empty() ? "the drone cannot load it"
-                              : late,
-               {},
-               {}});
+      respond({late.empty() && verdict->ready(), verdict->message(late), {}, {}});
     };
     BlueyeOutput* const output = &out;
     const vehicle::Now sent = now;
