@@ -256,22 +256,26 @@ void Publisher::addVehicle() {
   const ros::Publisher battery = advertise<sensor_msgs::BatteryState>(topics::kBattery);
   on<pb::BatteryTel>([this, battery](const vehicle::Now& now, const pb::BatteryTel& told) {
     if (told.battery().voltage() > 0.0F) battery_ = told.battery();
-    if (battery_details_at_ + kDetailsFresh > now.steady || !wanted(battery)) return;
-    if (auto one = toBattery(told.battery(), 0, context(now))) send(battery, *std::move(one));
-    if (!told.has_second_battery()) return;
-    if (auto two = toBattery(told.second_battery(), 1, context(now))) {
-      send(battery, *std::move(two));
-    }
+    if (!wanted(battery)) return;
+    const auto tell = [&](const pb::Battery& one, std::size_t number) {
+      const auto& details_at = battery_details_at_[number];
+      if (details_at && now.steady - *details_at < kDetailsFresh) return;
+      auto state = toBattery(one, static_cast<int>(number), context(now));
+      if (state) send(battery, *std::move(state));
+    };
+    tell(told.battery(), 0);
+    if (told.has_second_battery()) tell(told.second_battery(), 1);
   });
   const ros::Publisher details = advertise<BlueyeBatteryDetails>(topics::kBatteryDetails);
   on<pb::BatteryBQ40Z50Tel>(
       [this, battery, details](const vehicle::Now& now, const pb::BatteryBQ40Z50Tel& told) {
-        if (!told.has_battery() && !told.has_second_battery()) return;
-        battery_details_at_ = now.steady;
-        const auto tell = [&](const pb::BatteryBQ40Z50& one, int number) {
-          if (wanted(details)) send(details, toBatteryDetails(one, number, context(now)));
-          auto state = toBattery(one, number, context(now));
-          if (state && wanted(battery)) send(battery, *std::move(state));
+        const auto tell = [&](const pb::BatteryBQ40Z50& one, std::size_t number) {
+          const auto index = static_cast<int>(number);
+          if (wanted(details)) send(details, toBatteryDetails(one, index, context(now)));
+          auto state = toBattery(one, index, context(now));
+          if (!state) return;
+          battery_details_at_[number] = now.steady;
+          if (wanted(battery)) send(battery, *std::move(state));
         };
         if (told.has_battery()) tell(told.battery(), 0);
         if (told.has_second_battery()) tell(told.second_battery(), 1);

@@ -5,6 +5,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <map>
@@ -106,7 +107,8 @@ class Publisher {
   std::optional<pb::RecordState> record_state_;
   std::optional<pb::ControlMode> control_mode_;
   std::optional<pb::Battery> battery_;
-  vehicle::SteadyTime battery_details_at_{};
+  /// When the details of each battery held a voltage last.
+  std::array<std::optional<vehicle::SteadyTime>, 2> battery_details_at_;
   Repeats notified_;
 };
 

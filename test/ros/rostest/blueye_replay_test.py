@@ -12,7 +12,7 @@ from frontseat_driver.msg import (BlueyeBatteryDetails, BlueyeMessage, ControlSt
 from frontseat_driver.srv import BlueyeRequest, BlueyeControl
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import BatteryState, Imu
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
@@ -41,6 +41,7 @@ ESTIMATE = inner(1, number(1, 3.0) + number(2, 4.0) + number(3, 1.5707964) +
 
 
 BATTERY = inner(1, b"\xba\x01\x03Ten")                       # 23: the manufacturer's name
+VOLTAGE = inner(1, number(1, 14.5) + number(2, 0.5))         # and level
 NAN = float("nan")
 UNKNOWN = 1e6
 
@@ -176,6 +177,15 @@ class BlueyeReplay(unittest.TestCase):
         self.assertIn("look it over", told("drone").message)
         self.assertIn("playing a record from", told("link").message)
         self.assertEqual(DiagnosticStatus.OK, told("link").level)
+
+    def test_a_gauge_without_a_voltage_leaves_the_battery_to_the_other_message(self):
+        battery = self.heard("battery", BatteryState)
+        details = self.heard("battery/details", BlueyeBatteryDetails)
+        self.warm_up((("BatteryTel", VOLTAGE), ("BatteryBQ40Z50Tel", BATTERY)), battery, details)
+        self.play("BatteryBQ40Z50Tel", BATTERY, 5000)
+        self.play("BatteryTel", VOLTAGE, 5001)
+        self.assertTrue(until(lambda: battery.since(5001)))
+        self.assertAlmostEqual(14.5, battery.since(5001)[0].voltage)
 
     def test_bad_bytes_cost_that_message_alone(self):
         depth = self.heard("depth", PoseWithCovarianceStamped)
