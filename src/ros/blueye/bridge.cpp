@@ -21,6 +21,8 @@ constexpr std::uint32_t kQueue = 10;
 constexpr std::uint32_t kReplayQueue = 2000;
 constexpr bool kLatched = true;
 constexpr std::chrono::seconds kLately{5};
+// A record that begins anew goes back further than what a network puts out of order.
+constexpr std::chrono::seconds kRestart{1};
 
 /// Nothing is ever sent while a record is played; the session knows, this makes sure.
 class Mute : public session::BlueyeOutput {
@@ -105,11 +107,16 @@ void Bridge::post(Task task) {
   task(clocks_.read(), mute);
 }
 
-// Stamps are those of the record, so that a replay gives what the dive gave.
+// All times are those of the record, so that a replay gives what the dive gave at any speed.
 void Bridge::replay(const BlueyeMessage::ConstPtr& message) {
   const std::lock_guard<std::mutex> lock(replay_mutex_);
-  vehicle::Now now = clocks_.read();
-  now.stamp = toUtcTime(message->header.stamp);
+  const vehicle::UtcTime stamp = toUtcTime(message->header.stamp);
+  const vehicle::Now now{vehicle::SteadyTime{stamp}, stamp, stamp};
+  if (recorded_at_ && stamp + kRestart < *recorded_at_) {
+    publisher_.beginAnew();
+    next_health_ = {};
+  }
+  recorded_at_ = stamp;
   const std::string_view payload{reinterpret_cast<const char*>(message->data.data()),
                                  message->data.size()};
   session_.telemetry(now, message->type, payload, mute);

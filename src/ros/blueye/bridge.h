@@ -87,8 +87,9 @@ class Bridge : private driver::BlueyeLinkListener, private session::BlueyeListen
 
   std::mutex health_mutex_;
   Health health_;
-  Health told_health_;  ///< the timer's own
-  vehicle::SteadyTime next_health_{};
+  Health told_health_;                 ///< the timer's own
+  vehicle::SteadyTime next_health_{};  ///< of a record
+  std::optional<vehicle::UtcTime> recorded_at_;
   std::unique_ptr<diagnostic_updater::Updater> updater_;
   ros::WallTimer diagnostics_timer_;
   std::mutex replay_mutex_;

@@ -68,6 +68,13 @@ bool Publisher::publish(const vehicle::Now& now, std::string_view type, std::str
   return good;
 }
 
+void Publisher::beginAnew() {
+  navigation_ = Navigation(options_.navigation);
+  transform_stamps_ = {};
+  battery_details_at_ = {};
+  notified_ = {};
+}
+
 void Publisher::publishControl(const vehicle::Now& now, std::string_view type,
                                std::string_view payload) {
   publishRaw(control_, now, type, payload);

@@ -48,6 +48,9 @@ class Publisher {
   /// The link was lost.
   void forget() { navigation_.forget(); }
 
+  /// A record begins anew: what was told of it counts no more, nor do its stamps.
+  void beginAnew();
+
   /// A table of a message that is for diagnostics alone, by its path and value; newest.
   using Values = std::vector<std::pair<std::string, std::string>>;
   const std::map<std::string, Values>& diagnostics() const { return diagnostics_; }

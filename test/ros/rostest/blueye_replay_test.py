@@ -69,7 +69,7 @@ class BlueyeReplay(unittest.TestCase):
 
     def play(self, name, data, stamp):
         message = BlueyeMessage(type=PACKAGE + name, data=data)
-        message.header.stamp = rospy.Time(stamp)
+        message.header.stamp = rospy.Time.from_sec(stamp)
         self.record.publish(message)
 
     def heard(self, topic, kind):
@@ -186,6 +186,30 @@ class BlueyeReplay(unittest.TestCase):
         self.play("BatteryTel", VOLTAGE, 5001)
         self.assertTrue(until(lambda: battery.since(5001)))
         self.assertAlmostEqual(14.5, battery.since(5001)[0].voltage)
+
+    def test_a_record_gives_the_same_however_fast_it_is_played(self):
+        odom = self.heard("odom", Odometry)
+        self.warm_up([("PositionEstimateTel", ESTIMATE)], odom)
+
+        def at(stamp):
+            self.assertTrue(until(lambda: odom.since(stamp)))
+            return odom.since(stamp)[0]
+
+        def north(distance):
+            return inner(1, number(1, distance) + field(9, 0, b"\x01"))
+
+        self.play("PositionEstimateTel", north(3.0), 7000)
+        for tenth in range(21):
+            self.play("DepthTel", inner(1, number(1, 10.0 + 0.05 * tenth)), 7008 + 0.1 * tenth)
+        self.play("PositionEstimateTel", north(30.0), 7010)   # 2.7 m/s: no reset
+        self.play("PositionEstimateTel", north(30.0), 7013)   # the depth is too old by then
+        self.assertAlmostEqual(30.0, at(7010).pose.pose.position.y, 4)
+        self.assertAlmostEqual(-11.0, at(7010).pose.pose.position.z, 4)
+        self.assertAlmostEqual(-0.5, at(7010).twist.twist.linear.z, 3)
+        self.assertEqual(UNKNOWN, at(7013).pose.covariance[14])
+        self.play("PositionEstimateTel", north(3.0), 7000.5)  # the record begins anew
+        self.assertTrue(until(lambda: odom.messages[-1].header.stamp.to_sec() == 7000.5))
+        self.assertAlmostEqual(3.0, odom.messages[-1].pose.pose.position.y, 4)
 
     def test_bad_bytes_cost_that_message_alone(self):
         depth = self.heard("depth", PoseWithCovarianceStamped)
