@@ -13,6 +13,7 @@ enum class AccelerometerSign {
 
 /// Where the documents of the protocol are silent or disagree.
 struct Conventions {
+  bool yaw_clockwise = true;  ///< MotionInput.yaw and its echo Reference.yaw
   bool dvl_y_right = true;
   AccelerometerSign accelerometer_sign = AccelerometerSign::Auto;
   bool battery_discharge_negative = true;

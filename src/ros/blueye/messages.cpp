@@ -550,7 +550,7 @@ std::optional<BlueyeReference> toReference(const pb::ReferenceTel& told, const C
   out.surge = in.surge();
   out.sway = negated(in.sway());
   out.heave = negated(in.heave());
-  out.yaw = negated(in.yaw());
+  out.yaw = context.conventions.yaw_clockwise ? negated(in.yaw()) : in.yaw();
   out.z = negated(in.depth());
   out.heading = negated(radiansOf(in.heading()));
   out.altitude = in.altitude();

@@ -198,6 +198,7 @@ Parameters readAll(PrivateParameters& in, const XmlRpc::XmlRpcValue& values) {
   out.full_speed = readFullSpeed(in);
   out.source = in.choice("source", out.source, {{"zmq", Source::Zmq}, {"topic", Source::Topic}});
   out.session.listen_only = out.source == Source::Topic;
+  out.publisher.navigation.conventions.yaw_clockwise = out.session.clockwise_yaw;
   if (out.session.water_density_kg_m3) {
     out.publisher.navigation.conventions.water_density_kg_m3 = *out.session.water_density_kg_m3;
   }

@@ -350,6 +350,15 @@ TEST_F(Frames, ForcesAndSetPointsTurnIntoFlu) {
   EXPECT_EQ(out->sway, -0.5);
 }
 
+// The drone tells the stick as it was sent to it.
+TEST_F(Frames, TheSticksYawIsCounterClockwiseWhicheverWayTheDroneTakesIt) {
+  pb::ReferenceTel told;
+  told.mutable_reference()->set_yaw(0.5F);
+  EXPECT_EQ(toReference(told, context())->yaw, -0.5);
+  how_.yaw_clockwise = false;
+  EXPECT_EQ(toReference(told, context())->yaw, 0.5);
+}
+
 TEST_F(Frames, TheCamerasTiltUpIsANegativeTurnAboutPort) {
   pb::TiltAngleTel told;
   told.mutable_angle()->set_value(30.0F);

@@ -104,8 +104,17 @@ TEST(BlueyeParameters, DefaultsOfTheLinkAreThoseOfTheInterface) {
   EXPECT_EQ(read.silence_timeout, 5s);
 }
 
+TEST(BlueyeParameters, WhatIsSentAndWhatIsToldOfYawHaveOneSign) {
+  XmlRpc::XmlRpcValue values;
+  values["yaw_positive"] = "left";
+  const Parameters read = readParameters(values);
+  EXPECT_FALSE(read.session.clockwise_yaw);
+  EXPECT_FALSE(read.publisher.navigation.conventions.yaw_clockwise);
+}
+
 TEST(BlueyeParameters, DefaultsOfTheConversionsAreThoseOfTheInterface) {
   const NavigationOptions read = readParameters({}).publisher.navigation;
+  EXPECT_TRUE(read.conventions.yaw_clockwise);
   EXPECT_TRUE(read.conventions.dvl_y_right);
   EXPECT_EQ(read.conventions.accelerometer_sign, AccelerometerSign::Auto);
   EXPECT_TRUE(read.conventions.battery_discharge_negative);
