@@ -444,7 +444,7 @@ struct Answers {
 };
 
 TEST(BlueyeSession, ALinkLostWhileControlIsTakenLeavesNoRegistrationForTheNextOne) {
-  for (const std::size_t step : {0, 1}) {  // goodbye of the observer, registration anew
+  for (const std::size_t step : {0U, 1U}) {  // goodbye of the observer, registration anew
     ScriptedDrone drone;
     Answers answers;
     drone.connect();
@@ -557,7 +557,7 @@ TEST(BlueyeSession, FallsSilentWhenAnotherClientTakesControlWhileItIsReleased) {
 }
 
 TEST(BlueyeSession, ControlThatComesAfterTheCallerWasToldItDidNotIsGivenBack) {
-  for (const std::size_t step : {0, 1, 2}) {  // own goodbye, registration, the other's goodbye
+  for (const std::size_t step : {0U, 1U, 2U}) {  // own goodbye, registration, the other's goodbye
     ScriptedDrone drone;
     Answers answers;
     const auto app = drone.addClient("Blueye App");
@@ -586,7 +586,7 @@ TEST(BlueyeSession, ControlThatComesAfterTheCallerWasToldItDidNotIsGivenBack) {
 }
 
 TEST(BlueyeSession, TellsWhoeverAsksForControlInTimeAlsoWithoutAReply) {
-  for (const std::size_t step : {0, 1, 2}) {  // own goodbye, registration, the other's goodbye
+  for (const std::size_t step : {0U, 1U, 2U}) {  // own goodbye, registration, the other's goodbye
     ScriptedDrone drone;
     Answers answers;
     drone.addClient("Blueye App");
