@@ -229,4 +229,35 @@ void ConfirmedControls::drop(const std::string& type) {
       [&type](const Waiting& one) { return one.control.stops && one.control.type == type; });
 }
 
+void StreamedControls::put(SteadyTime now, Control control, const Send& send) {
+  Stream& stream = streams_[control.stream];
+  if (now < stream.next) {
+    if (control.respond) std::exchange(control.respond, nullptr)("");
+    stream.newest = std::move(control);
+    return;
+  }
+  stream = {now + kLeastPeriod, std::nullopt};
+  send(std::move(control));
+}
+
+void StreamedControls::step(SteadyTime now, const Send& send) {
+  for (auto& [name, stream] : streams_) {
+    if (!stream.newest || now < stream.next) continue;
+    stream.next = now + kLeastPeriod;
+    send(*std::exchange(stream.newest, std::nullopt));
+  }
+}
+
+vehicle::SteadyTime StreamedControls::nextStep() const {
+  SteadyTime next = SteadyTime::max();
+  for (const auto& [name, stream] : streams_) {
+    if (stream.newest) next = std::min(next, stream.next);
+  }
+  return next;
+}
+
+void StreamedControls::forget() {
+  for (auto& [name, stream] : streams_) stream.newest.reset();
+}
+
 }  // namespace frontseat_driver::session

@@ -183,6 +183,7 @@ void BlueyeSession::disconnected(const Now& now, BlueyeOutput& out) {
 }
 
 void BlueyeSession::loseRegistration(const Now& now) {
+  streamed_.forget();
   id_ = 0;
   id_in_control_ = 0;
   watchdog_due_ = SteadyTime::max();
@@ -402,6 +403,7 @@ void BlueyeSession::setIdInControl(const Now& now, std::uint32_t id, BlueyeOutpu
     held_.forget();
     confirmed_.failAll("control was lost before the drone showed it");
   }
+  if (!inControl()) streamed_.forget();
   reportControl(now);
 }
 
@@ -510,6 +512,7 @@ std::string BlueyeSession::command(const Now& now, const vehicle::DroneCommand& 
 }
 
 void BlueyeSession::endCommanding(const Now& now, bool all) {
+  streamed_.forget();
   if (inControl()) {
     held_.end(now.steady, all);
   } else {
@@ -669,7 +672,11 @@ void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, 
     confirmed_.drop(pb::PauseMissionCtrl{}.GetTypeName());
     confirmed_.drop(pb::ClearMissionCtrl{}.GetTypeName());
   }
-  confirmed_.add(now, std::move(control), out);
+  const auto send = [&](ConfirmedControls::Control one) {
+    confirmed_.add(now, std::move(one), out);
+  };
+  if (control.stream.empty()) return send(std::move(control));
+  streamed_.put(now.steady, std::move(control), send);
 }
 
 void BlueyeSession::request(const Now& now, std::string type, std::string payload,
@@ -715,6 +722,8 @@ void BlueyeSession::step(const Now& now, BlueyeOutput& out) {
   held_.step(now, out);
   if (was_commanding != held_.commanding()) reportControl(now);
   if (now.steady >= watchdog_due_) sendWatchdog(now, out);
+  streamed_.step(now.steady,
+                 [&](ConfirmedControls::Control one) { confirmed_.add(now, std::move(one), out); });
   confirmed_.step(now, out);
   askForConfirmations(now, out);
   if (now.steady >= register_due_) ping(now, out);
@@ -756,8 +765,8 @@ void BlueyeSession::sendWatchdog(const Now& now, BlueyeOutput& out) {
 
 vehicle::SteadyTime BlueyeSession::nextStep() const {
   if (!reported_) return SteadyTime::min();
-  return std::min({held_.nextStep(), watchdog_due_, confirmed_.nextStep(), register_due_,
-                   ask_clients_due_, requests_.nextStep(), nextTaking(),
+  return std::min({held_.nextStep(), watchdog_due_, streamed_.nextStep(), confirmed_.nextStep(),
+                   register_due_, ask_clients_due_, requests_.nextStep(), nextTaking(),
                    confirmed_.empty() ? SteadyTime::max() : ask_confirmations_});
 }
 
@@ -766,6 +775,7 @@ void BlueyeSession::leave(const Now& now, BlueyeOutput& out) {
   // The goodbye of a release is under way: its answer counts.
   const std::string goodbye = releasing_ ? pb::DisconnectClientReq{}.GetTypeName() : "";
   requests_.failAll(now, kLeaving, out, goodbye);
+  streamed_.forget();
   confirmed_.failAll(kLeaving);
   register_due_ = SteadyTime::max();
   ask_clients_due_ = SteadyTime::max();

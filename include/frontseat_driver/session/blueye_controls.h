@@ -4,6 +4,8 @@
 #include <chrono>
 #include <functional>
 #include <list>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -76,8 +78,11 @@ class ConfirmedControls {
   struct Control {
     std::string type;  ///< with package; empty: nothing is sent, only waited for
     std::string payload;
-    bool repeat = false;       ///< sending it twice is as good as once
-    bool stops = false;        ///< ends something: no end of commanding ends it
+    bool repeat = false;  ///< sending it twice is as good as once
+    bool stops = false;   ///< ends something: no end of commanding ends it
+    /// Of a stream of the same kind, of which no more than 30 a second go out, the newest each time
+    /// (StreamedControls). Empty: each goes out at once.
+    std::string stream;
     std::string confirmed_by;  ///< telemetry type with package; empty: sent is done
     /// Whether this telemetry shows the effect.
     std::function<bool(std::string_view payload)> shows;
@@ -111,6 +116,33 @@ class ConfirmedControls {
   };
 
   std::list<Waiting> waiting_;
+};
+
+/// Controls that programs send in streams, such as lights and servos: of each stream no more than
+/// 30 go out in a second, the newest each time, since a drone keeps what comes faster and a stop
+/// would come after it.
+class StreamedControls {
+ public:
+  using SteadyTime = vehicle::SteadyTime;
+  using Control = ConfirmedControls::Control;
+  using Send = std::function<void(Control)>;
+
+  /// Sends the control at once, or as soon as its stream may go on; then it is answered now.
+  void put(SteadyTime now, Control control, const Send& send);
+
+  void step(SteadyTime now, const Send& send);
+  SteadyTime nextStep() const;
+
+  /// What waits is not sent any more.
+  void forget();
+
+ private:
+  struct Stream {
+    SteadyTime next{};              ///< nothing goes out before
+    std::optional<Control> newest;  ///< that waits
+  };
+
+  std::map<std::string, Stream> streams_;
 };
 
 }  // namespace frontseat_driver::session

@@ -233,6 +233,7 @@ class BlueyeSession {
   BlueyeRequests requests_;
   HeldControls held_;
   ConfirmedControls confirmed_;
+  StreamedControls streamed_;
 
   // Of this connection.
   bool connected_ = false;

@@ -67,7 +67,8 @@ Input::Input(ros::NodeHandle node, std::string name, const Parameters& parameter
         if (!refusal.empty()) return refusal;
         pb::LaserCtrl message;
         message.mutable_laser()->set_value(static_cast<float>(wanted.data));
-        return control(now, {message.GetTypeName(), message.SerializeAsString()}, at, out);
+        const std::string type = message.GetTypeName();
+        return control(now, {type, message.SerializeAsString()}, at, out, type);
       });
   subscribe<sensor_msgs::JointState>(
       topics::kCmdJoint, [this](const auto& now, const auto& wanted, auto at, auto& out) {
@@ -130,11 +131,13 @@ std::string Input::move(const vehicle::Now& now, const ConvertedMotion& wanted,
 }
 
 std::string Input::control(const vehicle::Now& now, Wanted wanted, vehicle::SteadyTime received,
-                           BlueyeOutput& out) {
+                           BlueyeOutput& out, const std::string& stream) {
   std::string refusal;
   session::ConfirmedControls::Control once;
   once.type = std::move(wanted.type);
   once.payload = std::move(wanted.payload);
+  once.stream = stream;
+  // Nothing confirms it, so it is answered before control() returns.
   once.respond = [&refusal](const std::string& reason) { refusal = reason; };
   session_.control(now, std::move(once), out, received);
   return refusal;
@@ -151,6 +154,7 @@ std::string Input::level(const vehicle::Now& now, const char* type, double value
   session::ConfirmedControls::Control wanted;
   wanted.type = message.GetTypeName();
   wanted.payload = message.SerializeAsString();
+  wanted.stream = wanted.type;
   wanted.repeat = true;
   wanted.confirmed_by = protocol::BlueyeCatalogue::fullName(type);
   wanted.shows = [value](std::string_view payload) {
@@ -176,8 +180,8 @@ std::string Input::turn(const vehicle::Now& now, const sensor_msgs::JointState& 
     if (const auto* wrong = std::get_if<std::string>(&one)) return *wrong;
     all.push_back(std::get<Wanted>(std::move(one)));
   }
-  for (Wanted& one : all) {
-    const std::string failed = control(now, std::move(one), received, out);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::string failed = control(now, std::move(all[i]), received, out, joints.name[i]);
     if (refusal.empty()) refusal = failed;
   }
   return refusal;

@@ -69,8 +69,9 @@ class Input {
                       vehicle::SteadyTime received, session::BlueyeOutput& out);
   std::string raw(const vehicle::Now& now, const BlueyeMessage& message,
                   vehicle::SteadyTime received, session::BlueyeOutput& out);
+  /// `stream` as ConfirmedControls::Control has it.
   std::string control(const vehicle::Now& now, Wanted wanted, vehicle::SteadyTime received,
-                      session::BlueyeOutput& out);
+                      session::BlueyeOutput& out, const std::string& stream = {});
   template <class Take>
   void takeCounted(const vehicle::Now& now, const char* topic, Take take);
   void warn(const vehicle::Now& now, const char* topic, const std::string& refusal);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -267,6 +268,112 @@ TEST(BlueyeRequests, ThatALinkDoesNotTakeEndWithTheirTimeLimit) {
   EXPECT_EQ(refusal, "");
   drone.run(40ms);
   EXPECT_THAT(refusal, HasSubstr("not sent"));
+}
+
+ConfirmedControls::Control laser(float value) {
+  pb::LaserCtrl message;
+  message.mutable_laser()->set_value(value);
+  ConfirmedControls::Control control;
+  control.type = message.GetTypeName();
+  control.payload = message.SerializeAsString();
+  control.stream = control.type;
+  return control;
+}
+
+ConfirmedControls::Control servo(int port, float value) {
+  pb::GenericServoCtrl message;
+  message.mutable_servo()->set_value(value);
+  message.mutable_servo()->set_guest_port_number(static_cast<pb::GuestPortNumber>(port));
+  ConfirmedControls::Control control;
+  control.type = message.GetTypeName();
+  control.payload = message.SerializeAsString();
+  control.stream = control.type + std::to_string(port);
+  return control;
+}
+
+float laserOf(const ScriptedDrone::Sent& sent) {
+  pb::LaserCtrl message;
+  message.ParseFromString(sent.payload);
+  return message.laser().value();
+}
+
+class Streams : public testing::Test {
+ protected:
+  Streams() {
+    drone_.giveControl();
+    drone_.run(5s);
+    drone_.controls.clear();
+  }
+
+  std::string put(ConfirmedControls::Control control) {
+    std::string refusal = "not answered";
+    control.respond = [&refusal](const std::string& given) { refusal = given; };
+    drone_.session.control(drone_.now, std::move(control), drone_, drone_.now.steady);
+    return refusal;
+  }
+
+  ScriptedDrone drone_;
+};
+
+// A drone keeps what comes faster than it is used, and a stop would come after it.
+TEST_F(Streams, HaveTheirNewestSentThirtyTimesASecondAtMost) {
+  for (int i = 0; i < 1000; ++i) {
+    EXPECT_EQ(put(laser(static_cast<float>(i) / 1000.0F)), "");
+    const std::size_t before = drone_.controlsOf("LaserCtrl").size();
+    EXPECT_TRUE(i > 0 || before == 1) << "the first one has to wait";
+    drone_.run(1ms);
+  }
+  drone_.run(100ms);
+  const auto sent = drone_.controlsOf("LaserCtrl");
+  EXPECT_GE(sent.size(), 29u);
+  EXPECT_LE(sent.size(), 31u);
+  for (std::size_t i = 1; i < sent.size(); ++i) EXPECT_GE(sent[i].at - sent[i - 1].at, 33ms);
+  EXPECT_FLOAT_EQ(laserOf(sent.back()), 0.999F);
+}
+
+TEST_F(Streams, DoNotHoldUpOneAnother) {
+  put(laser(0.5F));
+  put(servo(1, 0.5F));
+  put(servo(2, 0.5F));
+  EXPECT_EQ(drone_.controls.size(), 3u);
+}
+
+TEST_F(Streams, EndWithCommandingAndAreNotRevived) {
+  const auto stop = [this] { drone_.session.stop(drone_.now, drone_); };
+  const auto close_and_open = [this] {
+    drone_.session.setCommandsEnabled(drone_.now, false);
+    drone_.session.setCommandsEnabled(drone_.now, true);
+  };
+  const auto lose = [this] { drone_.loseLink(); };
+  const auto leave = [this] { drone_.session.leave(drone_.now, drone_); };
+  for (const std::function<void()>& end :
+       {std::function<void()>{stop}, {close_and_open}, {lose}, {leave}}) {
+    if (!drone_.session.inControl()) drone_.giveControl();
+    drone_.run(100ms);
+    drone_.controls.clear();
+    EXPECT_EQ(put(laser(0.5F)), "");
+    EXPECT_EQ(put(laser(0.75F)), "");
+    end();
+    drone_.run(200ms);
+    EXPECT_EQ(drone_.controlsOf("LaserCtrl").size(), 1u);
+  }
+}
+
+TEST_F(Streams, EndWhenAnotherClientTakesControl) {
+  put(laser(0.5F));
+  put(laser(0.75F));
+  drone_.removeClient(drone_.in_control);
+  drone_.addClient("other");
+  drone_.tellClients();
+  drone_.run(20ms);
+  EXPECT_EQ(drone_.controlsOf("LaserCtrl").size(), 1u);
+  drone_.run(200ms);
+  EXPECT_EQ(drone_.controlsOf("LaserCtrl").size(), 1u);
+}
+
+TEST_F(Streams, TellThatTheLinkDidNotTakeOne) {
+  drone_.link_takes = false;
+  EXPECT_THAT(put(laser(0.5F)), HasSubstr("did not take"));
 }
 
 }  // namespace
