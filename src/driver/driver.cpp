@@ -25,6 +25,8 @@ constexpr std::chrono::milliseconds kLastWords{40};
 // Work that took longer, held up by a log line to a terminal that takes none perhaps, must not make
 // what has grown stale meanwhile look fresh.
 constexpr std::chrono::milliseconds kHeldUp{100};
+// A tick that is later tells of a process that was halted: longer than a busy computer takes.
+constexpr std::chrono::milliseconds kStoodStill{500};
 
 std::string_view withoutLineEnd(std::string_view sentence) {
   const auto last = sentence.find_last_not_of("\r\n");
@@ -59,7 +61,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
     if (stopping_) return;
     boost::asio::post(io_, [this, task = std::move(task)] {
       if (left_) return;
-      const Now now = clock_();
+      const Now now = wakeUp();
       task(now);
       step(now);
     });
@@ -107,7 +109,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
   }
 
   void onBytes(std::string_view bytes) override {
-    const Now now = clock_();
+    const Now now = wakeUp();
     session_.receive(now, bytes, *this);
     step(now);
   }
@@ -144,6 +146,15 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
 
   // Time.
 
+  /// The time, for what comes first after a wait.
+  Now wakeUp() {
+    const Now now = clock_();
+    if (now.steady <= next_tick_ + kStoodStill) return now;
+    session_.stoodStill(now, *this);
+    scheduleStep();
+    return now;
+  }
+
   void step(const Now& begun) {
     const bool held_up = std::chrono::steady_clock::now() > begun.steady + kHeldUp;
     session_.step(held_up ? clock_() : begun, *this);
@@ -167,7 +178,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
   void stepIfDue() {
     if (left_) return;
     step_timer_due_ = SteadyTime::max();
-    const Now now = clock_();
+    const Now now = wakeUp();
     if (now.steady >= session_.nextStep()) return step(now);
     scheduleStep();
   }
@@ -181,7 +192,7 @@ class Driver::Impl : public link::TcpClient::Handler, public session::Output {
 
   void tick() {
     if (left_) return;
-    listener_.onTick(clock_());
+    listener_.onTick(wakeUp());
     const SteadyTime now = std::chrono::steady_clock::now();
     while (next_tick_ <= now) next_tick_ += kTick;  // what was missed is not made up for
     scheduleTick();

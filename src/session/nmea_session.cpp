@@ -23,12 +23,16 @@ constexpr std::string_view kAll = "ALL";
 constexpr const char* kNoConnection = "there is no connection to the vehicle";
 constexpr const char* kLeaving = "the driver is stopping";
 constexpr const char* kRecord = "a record is being played";
+constexpr const char* kStoodStill = "it may have come long ago, while the driver stood still";
 constexpr const char* kUnfilled =
     "what it leaves alone of heading, depth and speed is not known, and parameter "
     "fill_behavior_fields needs it";
 
 // Before a link that takes nothing is offered the next sentence; spacing may be zero.
 constexpr std::chrono::milliseconds kOfferAgain = 5ms;
+
+// To read all that came while the process stood still.
+constexpr auto kWakingUp = 200ms;
 
 // Spacing longer than this must not keep the last zero thrust from being sent: see driver::Driver.
 constexpr auto kLastWordsWait = 30ms;
@@ -129,6 +133,11 @@ void NmeaSession::disconnected(const Now& now, Output& out) {
   permission_.disconnected();
   requests_.failAll("the connection was lost before the vehicle answered");
   reportControl(now, out);
+}
+
+void NmeaSession::stoodStill(const Now& now, Output& out) {
+  awake_since_ = now.steady + kWakingUp;
+  endCommanding(now, out);
 }
 
 void NmeaSession::leave(const Now& now, Output& out) {
@@ -288,6 +297,7 @@ std::string NmeaSession::refusalOf(const Now& now, const vehicle::Command& comma
 // What a callback that was held up brings is older than it looks.
 std::string NmeaSession::refusalOf(const Now& now, SteadyTime received) const {
   if (received < permitted_since_) return "it is from before the last stop, abort or permission";
+  if (received < awake_since_) return kStoodStill;
   if (now.steady - received >= options_.command_timeout) {
     return "it waited in this computer for longer than command_timeout";
   }
@@ -376,6 +386,8 @@ std::string NmeaSession::refusalOf(const Request& request, const Now& now) const
   if (!connected_) return kNoConnection;
   if (options_.listen_only) return kRecord;
   const bool abort = std::holds_alternative<AbortRequest>(request);
+  const bool log = std::holds_alternative<LogSwitch>(request);
+  if (now.steady < awake_since_ && !abort && !log) return kStoodStill;
   if (requests_.full() && !abort) return "too many requests are waiting for the vehicle";
   if (std::holds_alternative<RawSentence>(request)) return {};
   // A boat ignores an abort, so it may go out before the dialect is known.

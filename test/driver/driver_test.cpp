@@ -202,6 +202,30 @@ TEST(Driver, WhatHeldItUpMakesNothingStaleLookFresh) {
             milliseconds(300));
 }
 
+TEST(Driver, TellsTheSessionThatTheProcessStoodStillBeforeAnythingElse) {
+  const ReservedPort port;
+  std::atomic<bool> later{false};
+  Rig rig("127.0.0.1", port.port(), [&] {
+    Now now = systemNow();
+    if (later) now.steady += std::chrono::seconds(2);
+    return now;
+  });
+  rig.driver.start();
+  rig.driver.post([&](const Now&) { rig.log.add("task before"); });
+  drain(rig.driver);
+  later = true;
+  rig.driver.post([&](const Now&) { rig.log.add("task after"); });
+  drain(rig.driver);
+  rig.driver.stop();
+  const auto entries = rig.log.entries();
+  const auto before = std::find(entries.begin(), entries.end(), "task before");
+  const auto still = std::find(entries.begin(), entries.end(), "session stood still");
+  const auto after = std::find(entries.begin(), entries.end(), "task after");
+  EXPECT_LT(before, still);
+  EXPECT_LT(still, after);
+  EXPECT_NE(after, entries.end());
+}
+
 TEST(Driver, StepsWhenAskedAndNeverEarlier) {
   const ReservedPort port;
   Rig rig("127.0.0.1", port.port());

@@ -62,6 +62,7 @@ struct FakeSession : session::Session {
   }
   void step(const Now& now, session::Output& out) override { on_step(now, out); }
   SteadyTime nextStep() const override { return next_step; }
+  void stoodStill(const Now&, session::Output&) override { log.add("session stood still"); }
   void leave(const Now& now, session::Output& out) override { on_leave(now, out); }
   bool hasLeft() const override { return has_left; }
 

@@ -481,6 +481,31 @@ TEST_F(Commanding, ACommandThatWaitedTooLongDoesNotTakeAGoodOnesPlace) {
   EXPECT_THAT(out_.sentences(), testing::Each(StartsWith("$PYDIR,50,50*")));
 }
 
+TEST_F(Commanding, WhatCameWhileTheDriverStoodStillIsRefused) {
+  startKingfisher();
+  pass(10s);
+  session_->stoodStill(now(), out_);
+  const SteadyTime read = now().steady;  // it lay in the kernel meanwhile
+  pass(1ms);
+  EXPECT_EQ(session_->command(now(), vehicle::DriveCommand{0.5, 0.5}, read, out_),
+            "it may have come long ago, while the driver stood still");
+  pass(199ms);
+  EXPECT_THAT(out_.sent, IsEmpty());
+  EXPECT_EQ(command(vehicle::DriveCommand{0.5, 0.5}), "");
+}
+
+TEST_F(Commanding, StandingStillEndsCommanding) {
+  NmeaOptions options = withDialect(Dialect::Kingfisher);
+  options.command_timeout = 5s;
+  startKingfisher(options);
+  command(vehicle::DriveCommand{0.5, 0.5});
+  elapsed_ += 2s;
+  session_->stoodStill(now(), out_);
+  session_->step(now(), out_);
+  pass(5s);
+  EXPECT_THAT(out_.sentences(), ElementsAre(StartsWith("$PYDIR,50,50*"), kZero));
+}
+
 TEST_F(Commanding, LeavingDoesNotWaitForALongSpacing) {
   NmeaOptions options = withDialect(Dialect::Kingfisher);
   options.send_spacing = 1s;

@@ -81,6 +81,8 @@ struct CommandRefusal {
 /// Commands: one newest, repeated while it is fresh and permitted. When commanding ends, for
 /// whatever reason but a lost link, a Kingfisher is sent one zero thrust and a Sandshark nothing,
 /// so that it takes over again. An abort or a zero thrust goes next, ahead of anything that waits.
+/// A process that stood still ends commanding, and refuses what it reads in the next fifth of a
+/// second.
 class NmeaSession : public Session {
  public:
   explicit NmeaSession(NmeaOptions options);
@@ -90,6 +92,7 @@ class NmeaSession : public Session {
   void receive(const Now& now, std::string_view bytes, Output& out) override;
   void step(const Now& now, Output& out) override;
   SteadyTime nextStep() const override;
+  void stoodStill(const Now& now, Output& out) override;
   void leave(const Now& now, Output& out) override;
   bool hasLeft() const override { return leaving_ && !zero_due_; }
 
@@ -208,6 +211,7 @@ class NmeaSession : public Session {
 
   bool permitted_ = false;
   SteadyTime permitted_since_{};  ///< or stopped, or aborted: a command must not be older
+  SteadyTime awake_since_{};      ///< what was read before may be of any age
 
   CommandSlot slot_;
   std::optional<SteadyTime> held_back_since_;

@@ -48,6 +48,10 @@ class Session {
   /// When step() has something to do next; SteadyTime::max() if nothing is planned.
   virtual SteadyTime nextStep() const = 0;
 
+  /// This process did not run for a while, halted or held up: what it reads now may have lain in
+  /// the kernel for as long, so that nobody can tell how old it is.
+  virtual void stoodStill(const Now& /*now*/, Output& /*out*/) {}
+
   /// The program is going to end: plans what the vehicle must still hear, and nothing after it.
   virtual void leave(const Now& /*now*/, Output& /*out*/) {}
 

@@ -271,6 +271,36 @@ class Killed(unittest.TestCase):
         return speeds[-1] < 0.7 * max(speeds)
 
 
+class Halted(unittest.TestCase):
+    """Ctrl-Z and later fg: what came meanwhile lies in the kernel and looks new."""
+
+    HALTED_S = 2.0  # longer than a command_timeout, and than the driver needs to notice
+
+    def test_what_came_meanwhile_is_not_sent(self):
+        vehicle = boat()
+        self.addCleanup(vehicle.stop)
+        driver = NodeDriver("/halted", parameters_for(vehicle))
+        self.addCleanup(driver.stop)
+        self.addCleanup(driver.process.send_signal, signal.SIGCONT)
+        connection = vehicle.wait_for_connection()
+        publisher = Publisher("/halted/cmd_drive", Drive)
+        control = Collector("/halted/control", ControlStatus).wait_for_publisher()
+        publisher.publish(AHEAD)
+        connection.wait_for("DIR", 2)
+        wait_until(lambda: not control.messages[-1].commanding, "the command to be stale")
+        driver.process.send_signal(signal.SIGSTOP)
+        halted = time.monotonic()
+        publisher.publish(Drive(left=0.7, right=0.7))
+        wait_until(lambda: time.monotonic() > halted + self.HALTED_S, "time to pass")
+        driver.process.send_signal(signal.SIGCONT)
+        wait_until(lambda: [line for line in driver.process.output if "long ago" in line],
+                   "the refusal")
+        repeater = Repeater(publisher, AHEAD)
+        self.addCleanup(repeater.stop)
+        wait_until(lambda: connection.since(halted, "DIR,50,50"), "a new command")
+        self.assertEqual([], connection.since(halted, "DIR,70,70"))
+
+
 class WithoutClock(Leaving):
     """use_sim_time, and no clock: ROS time stands still at zero."""
 
