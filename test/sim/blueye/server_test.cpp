@@ -215,13 +215,13 @@ TEST_F(Server, HostileControlsCostThemselvesAlone) {
 }
 
 TEST_F(Server, HostileTelemetrySubscribersAreIgnored) {
+  using std::string_literals::operator""s;
   boost::asio::io_context io;
-  boost::asio::ip::tcp::socket raw{io};
   for (const std::uint16_t port :
        {server.telemetryPort(), server.requestPort(), server.controlPort()}) {
     boost::asio::ip::tcp::socket socket{io};
     socket.connect({boost::asio::ip::make_address("127.0.0.1"), port});
-    boost::asio::write(socket, boost::asio::buffer(std::string("GET / HTTP/1.1\r\n\r\n\xff\x00")));
+    boost::asio::write(socket, boost::asio::buffer("GET / HTTP/1.1\r\n\r\n\xff\x00"s));
   }
   Client requests{context, ZMQ_REQ, server.requestPort()};
   EXPECT_TRUE(requests.ask<bp::PingRep>(bp::PingReq{}));
