@@ -87,6 +87,12 @@ class Launch(unittest.TestCase):
         self.assertEqual("sandshark", sandshark["dialect"])
         self.assertEqual("grid", sandshark["heading_reference"])
 
+    def test_a_vehicle_that_is_not_known_gets_the_defaults_of_its_dialect(self):
+        unknown = parameters(load("driver.launch", ["dialect:=auto"]), "/frontseat")
+        self.assertEqual("auto", unknown["dialect"])
+        for name in ("heading_reference", "leap_seconds", "send_spacing"):
+            self.assertNotIn(name, unknown)
+
     def test_a_blueye_gets_its_own_node_and_parameters(self):
         config = load("driver.launch", ["vehicle:=blueye", "model:=false"])
         self.assertEqual(["blueye_node"], [node.type for node in config.nodes])
