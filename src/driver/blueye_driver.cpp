@@ -19,6 +19,8 @@ namespace {
 constexpr std::chrono::seconds kTick{1};
 // For zero motion and goodbye; the drone answers within 50 ms.
 constexpr std::chrono::milliseconds kLastWords{100};
+// A tick that is later tells of a process that was halted: longer than a busy computer takes.
+constexpr std::chrono::milliseconds kStoodStill{500};
 
 }  // namespace
 
@@ -59,8 +61,8 @@ class BlueyeDriver::Impl : public link::ZmqClient::Handler, public session::Blue
  private:
   void run() {
     pthread_setname_np(pthread_self(), "blueye");
-    client_.start();
     next_tick_ = clock_().steady;
+    client_.start();
     while (!stopping_) turn(std::min(session_.nextStep(), next_tick_));
     leave();
   }
@@ -68,9 +70,16 @@ class BlueyeDriver::Impl : public link::ZmqClient::Handler, public session::Blue
   void turn(SteadyTime deadline) {
     client_.run(deadline);
     if (!stopping_) runTasks();
-    const Now now = clock_();
+    const Now now = wakeUp();
     session_.step(now, *this);
     if (now.steady >= next_tick_) tick(now);
+  }
+
+  /// The time, for what comes first after a wait.
+  Now wakeUp() {
+    const Now now = clock_();
+    if (now.steady > next_tick_ + kStoodStill) session_.stoodStill(now);
+    return now;
   }
 
   void runTasks() {
@@ -79,7 +88,7 @@ class BlueyeDriver::Impl : public link::ZmqClient::Handler, public session::Blue
       const std::lock_guard<std::mutex> lock(tasks_mutex_);
       tasks.swap(tasks_);
     }
-    for (const auto& task : tasks) task(clock_());
+    for (const auto& task : tasks) task(wakeUp());
   }
 
   void tick(const Now& now) {
@@ -109,14 +118,14 @@ class BlueyeDriver::Impl : public link::ZmqClient::Handler, public session::Blue
   }
 
   void onTelemetry(std::string_view type, std::string_view payload) override {
-    session_.telemetry(clock_(), type, payload, *this);
+    session_.telemetry(wakeUp(), type, payload, *this);
   }
 
   void onReply(std::string_view type, std::string_view payload) override {
-    session_.reply(clock_(), type, payload, *this);
+    session_.reply(wakeUp(), type, payload, *this);
   }
 
-  void onNoReply(const std::string& reason) override { session_.noReply(clock_(), reason, *this); }
+  void onNoReply(const std::string& reason) override { session_.noReply(wakeUp(), reason, *this); }
 
   void onMalformed() override { session_.malformed(); }
 

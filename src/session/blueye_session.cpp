@@ -31,6 +31,7 @@ constexpr auto kAskAgain = 100ms;
 constexpr auto kOvertaken = 1s;
 constexpr auto kMissionEnds = 5s;
 constexpr auto kAskForConfirmation = 300ms;
+constexpr auto kWakingUp = 200ms;  // to read all that came while the process stood still
 constexpr std::int64_t kLongestUptime_s = 9000000000;  // more does not fit into nanoseconds
 constexpr double kMostRate_hz = 100.0;                 // the document, SetPubFrequencyReq
 
@@ -48,6 +49,7 @@ constexpr const char* kNotTaken =
     "commanding has ended; the link did not take all of it, which is sent again";
 constexpr const char* kReleasing = "control is being given back";
 constexpr const char* kRecord = "a record is being played";
+constexpr const char* kStoodStill = "it may have come long ago, while the driver stood still";
 
 std::chrono::nanoseconds periodOf(double rate_hz) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -488,6 +490,7 @@ std::string BlueyeSession::refusal(const Now& now, SteadyTime received) const {
   const std::string reason = refusal();
   if (!reason.empty()) return reason;
   if (received < permitted_since_) return "it is from before the last stop or permission";
+  if (received < awake_since_) return kStoodStill;
   if (now.steady - received >= options_.command_timeout) {
     return "it waited in this computer for longer than command_timeout";
   }
@@ -519,6 +522,11 @@ void BlueyeSession::endCommanding(const Now& now, bool all) {
     held_.forget();
   }
   reportControl(now);
+}
+
+void BlueyeSession::stoodStill(const Now& now) {
+  awake_since_ = now.steady + kWakingUp;
+  endCommanding(now, false);
 }
 
 BlueyeSession::Answer BlueyeSession::stop(const Now& now, BlueyeOutput& out) {
@@ -662,7 +670,7 @@ std::string BlueyeSession::refusalOf(std::string_view control_type) const {
 void BlueyeSession::control(const Now& now, ConfirmedControls::Control control, BlueyeOutput& out,
                             std::optional<SteadyTime> received) {
   std::string reason = refusalOf(control.type);
-  if (reason.empty() && received) reason = refusal(now, *received);
+  if (reason.empty()) reason = refusal(now, received.value_or(now.steady));
   if (!reason.empty()) {
     ++counters_.refused_commands;
     if (control.respond) control.respond(reason);
@@ -688,6 +696,7 @@ void BlueyeSession::request(const Now& now, std::string type, std::string payloa
   if (leaving_) return refuse(kLeaving);
   if (options_.listen_only) return refuse(kRecord);
   if (!connected_) return refuse(kNoConnection);
+  if (now.steady < awake_since_) return refuse(kStoodStill);
   if (name == "FlashEscSettingsReq" && !options_.allow_flash) {
     return refuse("it writes to the motor controllers; parameter allow_flash permits it");
   }

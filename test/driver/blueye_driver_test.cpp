@@ -245,6 +245,38 @@ TEST(BlueyeDriver, DrivesAndLeavesTheDroneAtRest) {
   EXPECT_FALSE(listener.connected);
 }
 
+// Time goes slowly after the halt, so that what came meanwhile is read soon on a busy computer,
+// too.
+TEST(BlueyeDriver, TakesNothingForNewThatCameWhileItStoodStill) {
+  constexpr int kSlowness = 20;
+  Drone drone;
+  Listener listener;
+  session::BlueyeOptions options;
+  options.observer = false;
+  session::BlueyeSession session(options, listener);
+  std::atomic<bool> halted{false};
+  vehicle::Now last;
+  BlueyeDriver driver(drone.options(), session, listener, [&] {
+    const vehicle::Now now = clocks();
+    if (!halted) return last = now;
+    vehicle::Now later = last;
+    later.steady += 2s + (now.steady - last.steady) / kSlowness;
+    return later;
+  });
+  driver.start();
+  ASSERT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Granted; }));
+  std::string refusal;
+  std::atomic<bool> told{false};
+  driver.post([&](const vehicle::Now&) { halted = true; });
+  driver.post([&](const vehicle::Now& now) {
+    refusal = session.command(now, vehicle::MotionCommand{}, now.steady);
+    told = true;
+  });
+  ASSERT_TRUE(eventually([&] { return told.load(); }));
+  driver.stop();
+  EXPECT_EQ(refusal, "it may have come long ago, while the driver stood still");
+}
+
 // Time goes slowly while it leaves, so that no limit of it ends the wait on a busy computer.
 TEST(BlueyeDriver, ClosesItsConnectionsWhenItsGoodbyeHasBeenAnswered) {
   constexpr int kSlowness = 20;

@@ -109,6 +109,10 @@ class BlueyeSession {
   void step(const vehicle::Now& now, BlueyeOutput& out);
   SteadyTime nextStep() const;
 
+  /// This process did not run for a while: what it reads now may have lain in the kernel for as
+  /// long. Ends commanding, and for a fifth of a second nothing is taken but what ends it.
+  void stoodStill(const vehicle::Now& now);
+
   /// Plans zero motion and goodbye, and nothing after them.
   void leave(const vehicle::Now& now, BlueyeOutput& out);
   bool hasLeft() const { return leaving_ && goodbye_said_ && !held_.zerosDue(); }
@@ -251,6 +255,7 @@ class BlueyeSession {
   std::uint32_t told_in_control_ = 0;  ///< by the last of them
   SteadyTime registered_since_{};
   SteadyTime permitted_since_{};  ///< or stopped: a command must not be older
+  SteadyTime awake_since_{};      ///< what was read before may be of any age
   bool permitted_ = false;
   SteadyTime watchdog_due_ = SteadyTime::max();
   std::optional<Taking> taking_;

@@ -1115,6 +1115,55 @@ TEST(BlueyeSession, RefusesOtherControlsThatWaitedTooLongOrAcrossAStop) {
   EXPECT_EQ(drone.session.counters().refused_commands, 5u);
 }
 
+TEST(BlueyeSession, RefusesWhatCameWhileTheDriverStoodStill) {
+  ScriptedDrone drone;
+  drone.giveControl();
+  drone.run(5s);
+  std::string refusal;
+  const auto control = [&] {
+    ConfirmedControls::Control light;
+    light.type = "blueye.protocol.LightsCtrl";
+    light.respond = [&](const std::string& given) { refusal = given; };
+    drone.session.control(drone.now, std::move(light), drone);
+    return refusal;
+  };
+  const auto request = [&] {
+    drone.session.request(
+        drone.now, "PingReq", {}, 1s, [&](const BlueyeReply& reply) { refusal = reply.reason; },
+        drone);
+    drone.run(1ms);
+    return refusal;
+  };
+  drone.session.stoodStill(drone.now);
+  const auto read = drone.now.steady;  // it lay in the kernel meanwhile
+  EXPECT_THAT(control(), HasSubstr("stood still"));
+  EXPECT_THAT(request(), HasSubstr("stood still"));
+  drone.run(198ms);
+  EXPECT_THAT(drone.command(forward()), HasSubstr("stood still"));
+  drone.run(1ms);
+  EXPECT_THAT(drone.session.command(drone.now, forward(), read), HasSubstr("stood still"));
+  EXPECT_EQ(drone.command(forward()), "");
+  EXPECT_EQ(control(), "");
+  EXPECT_EQ(request(), "");
+}
+
+TEST(BlueyeSession, StandingStillEndsCommanding) {
+  BlueyeOptions options;
+  options.command_timeout = 5s;
+  ScriptedDrone drone(options);
+  drone.giveControl();
+  drone.run(5s);
+  drone.command(forward());
+  drone.run(10ms);
+  EXPECT_FALSE(drone.isAtRest());
+  drone.now.steady += 2s;
+  drone.session.stoodStill(drone.now);
+  drone.session.step(drone.now, drone);
+  EXPECT_TRUE(drone.isAtRest());
+  drone.run(3s);
+  EXPECT_TRUE(drone.isAtRest());
+}
+
 TEST(BlueyeSession, ClosingTheGateSendsZeroAndOpeningRevivesNothing) {
   ScriptedDrone drone;
   drone.giveControl();
