@@ -174,8 +174,6 @@ TEST(Driver, OneClockReadingPerRead) {
 milliseconds ageOfTheStepAfter(const std::function<void(Rig&, Vehicle&)>& begin_work) {
   Vehicle vehicle;
   Rig rig("127.0.0.1", vehicle.port());
-  rig.driver.start();
-  EXPECT_TRUE(waitUntil([&] { return vehicle.clients() == 1 && rig.listener.connects == 1; }));
   std::promise<steady_clock::duration> age;
   bool worked = false;
   rig.session.on_receive = [&](const Now& now, auto, auto&) {
@@ -186,6 +184,8 @@ milliseconds ageOfTheStepAfter(const std::function<void(Rig&, Vehicle&)>& begin_
   rig.session.on_step = [&](const Now& now, auto&) {
     if (std::exchange(worked, false)) age.set_value(steady_clock::now() - now.steady);
   };
+  rig.driver.start();
+  EXPECT_TRUE(waitUntil([&] { return vehicle.clients() == 1 && rig.listener.connects == 1; }));
   begin_work(rig, vehicle);
   const auto found = age.get_future().get();
   rig.driver.stop();
