@@ -245,36 +245,48 @@ TEST(BlueyeDriver, DrivesAndLeavesTheDroneAtRest) {
   EXPECT_FALSE(listener.connected);
 }
 
-// Time goes slowly after the halt, so that what came meanwhile is read soon on a busy computer,
-// too.
-TEST(BlueyeDriver, TakesNothingForNewThatCameWhileItStoodStill) {
+/// What is said of a command that is read so long after the last tick, after a halt perhaps. Time
+/// goes slowly from there on, so that it is read soon on a busy computer, too.
+std::string refusalOfACommandRead(std::chrono::milliseconds after_the_last_tick) {
   constexpr int kSlowness = 20;
   Drone drone;
   Listener listener;
   session::BlueyeOptions options;
   options.observer = false;
   session::BlueyeSession session(options, listener);
-  std::atomic<bool> halted{false};
+  std::atomic<bool> went_on{false};
   vehicle::Now last;
+  vehicle::SteadyTime from;
   BlueyeDriver driver(drone.options(), session, listener, [&] {
     const vehicle::Now now = clocks();
-    if (!halted) return last = now;
+    if (!went_on) return last = now;
     vehicle::Now later = last;
-    later.steady += 2s + (now.steady - last.steady) / kSlowness;
+    later.steady = from + (now.steady - last.steady) / kSlowness;
     return later;
   });
   driver.start();
-  ASSERT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Granted; }));
+  EXPECT_TRUE(eventually([&] { return listener.grant == vehicle::Grant::Granted; }));
   std::string refusal;
   std::atomic<bool> told{false};
-  driver.post([&](const vehicle::Now&) { halted = true; });
+  driver.post([&](const vehicle::Now&) {
+    const std::lock_guard<std::mutex> lock(listener.mutex);
+    from = listener.ticks.back() + after_the_last_tick;
+    went_on = true;
+  });
   driver.post([&](const vehicle::Now& now) {
     refusal = session.command(now, vehicle::MotionCommand{}, now.steady);
     told = true;
   });
-  ASSERT_TRUE(eventually([&] { return told.load(); }));
+  EXPECT_TRUE(eventually([&] { return told.load(); }));
   driver.stop();
-  EXPECT_EQ(refusal, "it may have come long ago, while the driver stood still");
+  return refusal;
+}
+
+TEST(BlueyeDriver, TakesNothingForNewThatCameWhileItStoodStill) {
+  const std::string stood_still = "it may have come long ago, while the driver stood still";
+  EXPECT_EQ(refusalOfACommandRead(3s), stood_still);
+  EXPECT_EQ(refusalOfACommandRead(1700ms), stood_still);
+  EXPECT_EQ(refusalOfACommandRead(1350ms), "");
 }
 
 // Time goes slowly while it leaves, so that no limit of it ends the wait on a busy computer.

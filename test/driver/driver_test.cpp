@@ -226,6 +226,28 @@ TEST(Driver, TellsTheSessionThatTheProcessStoodStillBeforeAnythingElse) {
   EXPECT_NE(after, entries.end());
 }
 
+/// Whether the driver says that it stood still when it goes on so long after its start, at which
+/// its first tick is a second away.
+bool findsThatItStoodStill(milliseconds after_its_start) {
+  const ReservedPort port;
+  Now then = systemNow();
+  then.steady += after_its_start;
+  std::atomic<bool> later{false};
+  Rig rig("127.0.0.1", port.port(), [&] { return later ? then : systemNow(); });
+  rig.driver.start();
+  drain(rig.driver);
+  later = true;
+  drain(rig.driver);
+  rig.driver.stop();
+  return rig.log.has("session stood still");
+}
+
+TEST(Driver, StoodStillWhenATickIsHalfASecondLate) {
+  EXPECT_FALSE(findsThatItStoodStill(milliseconds(600)));
+  EXPECT_FALSE(findsThatItStoodStill(milliseconds(1350)));
+  EXPECT_TRUE(findsThatItStoodStill(milliseconds(1700)));
+}
+
 TEST(Driver, StepsWhenAskedAndNeverEarlier) {
   const ReservedPort port;
   Rig rig("127.0.0.1", port.port());
